@@ -235,15 +235,13 @@ def rough_state():
 @pytest.fixture
 def make_multigrid(in_the_end):
     """Factory of `MultigridSolver`s linearised about a state, by its rows or others; freed in the end."""
-    from mgehl.discretization.rows import rows_of
     from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
 
-    def make(hierarchy, problem, state, rigid=False, rows=None, **settings):
+    def make(hierarchy, problem, state, rows=None, **settings):
         level = hierarchy.grids.index(problem.grid)
-        how = problem.contact, problem.scheme, CycleSettings(**settings), rigid
+        how = problem.contact, problem.scheme, CycleSettings(**settings)
         multigrid = in_the_end(MultigridSolver.free, MultigridSolver(hierarchy, level, *how))
-        feeding = problem.feeding(state.status)
-        rows = rows_of(state.status, rigid, feeding=feeding) if rows is None else rows
+        rows = problem.rows(state.status) if rows is None else rows
         multigrid.linearise(problem.evaluate(state), rows)
         return multigrid
 
@@ -253,15 +251,12 @@ def make_multigrid(in_the_end):
 @pytest.fixture
 def make_jacobian(in_the_end):
     """Factory of the `Jacobian` of a problem about a state; its Mat is destroyed after the test."""
-    from mgehl.discretization.rows import rows_of
     from mgehl.multigrid.jacobian import Jacobian
 
-    def make(problem, state, rigid=False):
-        deflection = None if rigid else problem.deflection
-        jacobian = Jacobian(problem.grid, deflection, problem.contact, problem.scheme)
+    def make(problem, state):
+        jacobian = Jacobian(problem.grid, problem.deflection, problem.contact, problem.scheme)
         in_the_end(lambda each: each.mat.destroy(), jacobian)
-        rows = rows_of(state.status, rigid, feeding=problem.feeding(state.status))
-        jacobian.linearise(problem.evaluate(state), rows)
+        jacobian.linearise(problem.evaluate(state), problem.rows(state.status))
         return jacobian
 
     return make

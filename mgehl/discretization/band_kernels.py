@@ -1,6 +1,6 @@
 """The loops over banded systems of many lines, compiled by numba and cached.
 
-How far a band reaches is a number that the compiler knows (of `REACH`, half the time). Each has a numpy
+How far a band reaches is a number that the compiler knows (half the time). Each has a numpy
 twin in the tests that says the same thing slowly.
 """
 
@@ -9,7 +9,7 @@ import numpy as np
 from mgehl.discretization.compiled import compiled
 
 REACH = 4
-"""Neighbours on each side that a line's band couples where the gap is elastic; 3 to 10 do as well."""
+"""Neighbours on each side that a line's band couples; 3 to 10 do as well."""
 
 SIDE_BY_SIDE = 2
 """Lines that are solved side by side: a line waits for its own results, two take hardly longer than one."""
@@ -107,60 +107,55 @@ def _side_by_side(spans, line):
 
 
 @compiled()
-def _eliminate(band, node, below, reach):
+def _eliminate(band, node, below):
     """Take a node's unknown out of the row of one `below` it."""
     row = node + below
-    band[row, reach - below] *= band[node, reach]
-    for k in range(1, reach + 1):
-        band[row, reach - below + k] -= band[row, reach - below] * band[node, reach + k]
+    band[row, REACH - below] *= band[node, REACH]
+    for k in range(1, REACH + 1):
+        band[row, REACH - below + k] -= band[row, REACH - below] * band[node, REACH + k]
 
 
-def banded(reach):
-    """(factor, solve): functions for bands (lines, nx, 2 reach + 1). What they close over must be numbers:
-    numba keeps functions that close over others in no cache."""
+@compiled(error_model="numpy")
+def factor_lines(bands, nodes):
+    """LU factors of the `nodes` (first, end) of all lines in place, without pivoting: reciprocal pivots
+    on the diagonal, zero beyond. A singular line's are not finite, which ends the iteration."""
+    nx = nodes[1] - nodes[0]
+    for j in range(len(bands)):
+        band = bands[j, nodes[0] : nodes[1]]
+        for i in range(min(REACH, nx)):
+            band[i, : REACH - i] = 0.0
+            band[nx - 1 - i, REACH + 1 + i :] = 0.0
+        for i in range(nx):
+            band[i, REACH] = 1.0 / band[i, REACH]
+            if i + REACH < nx:
+                for below in range(1, REACH + 1):
+                    _eliminate(band, i, below)
+            else:
+                for below in range(1, nx - i):
+                    _eliminate(band, i, below)
 
-    @compiled(error_model="numpy")
-    def factor(bands, nodes):
-        """LU factors of the `nodes` (first, end) of all lines in place, without pivoting: reciprocal pivots
-        on the diagonal, zero beyond. A singular line's are not finite, which ends the iteration."""
-        nx = nodes[1] - nodes[0]
-        for j in range(len(bands)):
-            band = bands[j, nodes[0] : nodes[1]]
-            for i in range(min(reach, nx)):
-                band[i, : reach - i] = 0.0
-                band[nx - 1 - i, reach + 1 + i :] = 0.0
-            for i in range(nx):
-                band[i, reach] = 1.0 / band[i, reach]
-                if i + reach < nx:
-                    for below in range(1, reach + 1):
-                        _eliminate(band, i, below, reach)
-                else:
-                    for below in range(1, nx - i):
-                        _eliminate(band, i, below, reach)
 
-    @compiled()
-    def solve(bands, spans, r, w):
-        """Solve every line with the factors for the nodes of its span (first, end); the others become zero.
-        `r` and `w` are (lines, nx), `spans` (lines, 2)."""
-        lines, nx, _ = bands.shape
-        x = np.zeros((nx + 2 * reach, SIDE_BY_SIDE))
-        line = 0
-        while line < lines:
-            (first, end), together = spans[line], _side_by_side(spans, line)
-            for i in range(first, end):
-                for each in range(together):
-                    value = r[line + each, i]
-                    for k in range(reach):
-                        value -= bands[line + each, i, k] * x[i + k, each]
-                    x[reach + i, each] = value
-            for i in range(end - 1, first - 1, -1):
-                for each in range(together):
-                    value = x[reach + i, each]
-                    for k in range(reach + 1, 2 * reach + 1):
-                        value -= bands[line + each, i, k] * x[i + k, each]
-                    x[reach + i, each] = w[line + each, i] = value * bands[line + each, i, reach]
-            w[line : line + together, :first] = 0.0
-            w[line : line + together, end:] = 0.0
-            line += together
-
-    return factor, solve
+@compiled()
+def solve_lines(bands, spans, r, w):
+    """Solve every line with the factors for the nodes of its span (first, end); the others become zero.
+    `r` and `w` are (lines, nx), `spans` (lines, 2)."""
+    lines, nx, _ = bands.shape
+    x = np.zeros((nx + 2 * REACH, SIDE_BY_SIDE))
+    line = 0
+    while line < lines:
+        (first, end), together = spans[line], _side_by_side(spans, line)
+        for i in range(first, end):
+            for each in range(together):
+                value = r[line + each, i]
+                for k in range(REACH):
+                    value -= bands[line + each, i, k] * x[i + k, each]
+                x[REACH + i, each] = value
+        for i in range(end - 1, first - 1, -1):
+            for each in range(together):
+                value = x[REACH + i, each]
+                for k in range(REACH + 1, 2 * REACH + 1):
+                    value -= bands[line + each, i, k] * x[i + k, each]
+                x[REACH + i, each] = w[line + each, i] = value * bands[line + each, i, REACH]
+        w[line : line + together, :first] = 0.0
+        w[line : line + together, end:] = 0.0
+        line += together

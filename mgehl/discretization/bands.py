@@ -4,21 +4,21 @@ from itertools import pairwise
 
 import numpy as np
 
-from mgehl.discretization.band_kernels import REACH, banded, build_bands, empty_columns, span_of
+from mgehl.discretization.band_kernels import (
+    REACH,
+    build_bands,
+    empty_columns,
+    factor_lines,
+    solve_lines,
+    span_of,
+)
 from mgehl.discretization.rows import GAP, PRESSURE
 
 STIFF = 0.3
 """A node is distributive where its mobility/dX is below this part of its influence; 0.09 to 0.9 do."""
 
-REACH_OF_STENCIL = 2
-"""What a stencil couples along its line: two nodes upstream, one downstream."""
-
-LOOPS = {reach: banded(reach) for reach in (REACH, REACH_OF_STENCIL)}
-"""(factor, solve) by the reach of a band."""
-
-AT_A_TIME, STENCILS_AT_A_TIME = 4, 16
-"""Lines that are filled and factored before the next ones, where the gap is elastic and where it is rigid:
-a fifth less time than all at once."""
+AT_A_TIME = 4
+"""Lines that are filled and factored before the next ones: a fifth less time than all at once."""
 
 LINES_BESIDE = 2
 """Lines on each side that a stencil couples a line to."""
@@ -49,14 +49,13 @@ def influence_of_columns(K, share):
 
 
 class LineBands:
-    """Factored banded systems of all local lines, each node coupled to `reach` on each side. A line's
+    """Factored banded systems of all local lines, each node coupled to `REACH` on each side. A line's
     system has the nodes of its span alone (`span_of`). A few lines have a span together, by their numbers
     on the whole grid, of which `before` come before these: so spans are the same on any number of ranks."""
 
-    def __init__(self, lines, nx, reach=REACH, before=0):
-        self._shape, self._factors = (lines, nx, 2 * reach + 1), None
+    def __init__(self, lines, nx, before=0):
+        self._shape, self._factors = (lines, nx, 2 * REACH + 1), None
         self._spans, self._before = np.tile([0, nx], (lines, 1)), before
-        self._factor, self._solve = LOOPS[reach]
 
     def factor(self, linearisation, distributive, given, kappa, share, contents=None):
         """Factor what J Q couples along the lines; return its diagonal, (lines, nx), zero beyond the spans;
@@ -74,7 +73,7 @@ class LineBands:
                         here = some, slice(*nodes)  # beyond it there is nothing yet
                         bands[*here, bands.shape[2] // 2 + ahead] += by_content[here]
             diagonal[some, slice(*nodes)] = bands[some, slice(*nodes), REACH]
-            self._factor(bands[some], nodes)
+            factor_lines(bands[some], nodes)
         return diagonal
 
     def _groups(self, size):
@@ -93,19 +92,6 @@ class LineBands:
         """Free the memory of the bands."""
         self._factors = None
 
-    def factor_stencil(self, linearisation, given):
-        """Factor what the stencil A of a rigid gap couples along the lines."""
-        bands, spans = self._room(), self._spans
-        stencil = zip(linearisation.offsets, linearisation.by_unknown, strict=True)
-        along = [(ahead, A) for (beside, ahead), A in stencil if beside == 0]
-        for some in self._groups(STENCILS_AT_A_TIME):
-            spans[some] = nodes = span_of(given, (some.start, some.stop))
-            part = bands[some, slice(*nodes)]
-            part[:] = 0.0
-            for ahead, A in along:
-                part[:, :, REACH_OF_STENCIL + ahead] = A[some, slice(*nodes)]
-            self._factor(bands[some], nodes)
-
     def solve(self, r, w):
         """Solve all lines for the right-hand sides `r`; write `w`, which may be `r`; both (lines, nx)."""
-        self._solve(self._factors, self._spans, r, w)
+        solve_lines(self._factors, self._spans, r, w)

@@ -27,25 +27,6 @@ def _add(a, b, p, h, h0, out):
 
 
 @compiled()
-def apply_stencil(offsets, A, dP, out):
-    """out = A dP, the Jacobian of a rigid gap; `dP` ghosted."""
-    lines, nx = out.shape
-    for j in range(lines):
-        out[j] = 0.0
-        for k in range(len(offsets)):
-            line, node = j + HALO + offsets[k, 0], offsets[k, 1]
-            first, end = max(0, -node), min(nx, nx - node)
-            _add_part(A[k, j, first:end], dP[line, first + node : end + node], out[j, first:end])
-
-
-@compiled()
-def _add_part(a, p, out):
-    """out += a p."""
-    for i in range(out.size):
-        out[i] += a[i] * p[i]
-
-
-@compiled()
 def distribute(w, distributive, share, omega, out, along_x=True, along_y=True):
     """out = omega Q w; `w` and `distributive` ghosted, `out` (lines, nx). Q as in
     `band_kernels.build_bands`; others take what is handed over along X and along Y, or one."""

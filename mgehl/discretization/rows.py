@@ -4,7 +4,7 @@
     PRESSURE  (P_given - P)/dX = 0     boundary, other cavity
     GAP       (h_b - H)/dX = 0         contact; h_b is the gap that its law keeps, mostly zero
 
-Fluid settled apart from the gap is *frozen*; in a rigid gap a contact node's pressure is given, too.
+In a rigid gap a contact node's pressure is given, too.
 """
 
 import numpy as np
@@ -14,15 +14,13 @@ from mgehl.discretization.status import CONTACT, LUBRICATED
 FLOW, PRESSURE, GAP = np.int8(0), np.int8(1), np.int8(2)
 
 
-def rows_of(status, rigid=False, frozen=None, feeding=None):
-    """The kind of row of every node, shape as `status`; those that are `frozen` keep their pressure. The
-    content of cavities that are `feeding` answers to the flow."""
+def rows_of(status, rigid=False, feeding=None):
+    """The kind of row of every node, shape as `status`. The content of cavities that are `feeding` answers
+    to the flow."""
     rows = np.full(status.shape, PRESSURE)
     rows[status == LUBRICATED] = FLOW
     if feeding is not None:
         rows[feeding] = FLOW
     if not rigid:
         rows[status == CONTACT] = GAP
-    if frozen is not None:
-        rows[frozen] = PRESSURE
     return rows

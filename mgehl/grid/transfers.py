@@ -4,7 +4,7 @@ import numpy as np
 
 from mgehl.discretization.axes import own
 from mgehl.discretization.mesh import HALO
-from mgehl.discretization.rows import FLOW, GAP
+from mgehl.discretization.rows import FLOW
 from mgehl.discretization.status import CONTACT
 from mgehl.grid.events import TRANSFERS, event
 from mgehl.grid.ownership import coarsened
@@ -92,7 +92,7 @@ class PartitionedTransfer:
     """Full weighting of residuals and bilinear corrections, fluid and contact kept apart: their rows are
     different equations and their pressures jump. A contact row is -H/dX on every grid, so what is gathered
     shrinks with the ratio of the spacings (or the coarse correction would be twice too large). Rows and
-    corrections of boundary and cavitated nodes are zero, and those of contact in a rigid gap."""
+    corrections of boundary and cavitated nodes are zero."""
 
     def __init__(self, transfer):
         self._transfer = transfer
@@ -103,17 +103,16 @@ class PartitionedTransfer:
         transfer = self._transfer
         self._fine_film, self._coarse_film = fine[1] == FLOW, coarse[1] == FLOW
         fine_contact, coarse_contact = fine[0] == CONTACT, coarse[0] == CONTACT
-        self._film_share, self._contact_moves = self._fine_film, False
-        if not transfer.coarse.count(coarse_contact):
+        self._film_share = self._fine_film
+        self._some_touch = transfer.coarse.count(coarse_contact) > 0
+        if not self._some_touch:
             return
         spread = transfer.bilinear(coarse_contact.astype(float))
         self._film_share = _inverse(1.0 - spread, where=self._fine_film)
-        self._contact_moves = transfer.fine.count(fine[1] == GAP) > 0
-        if self._contact_moves:
-            self._fine_contact, self._coarse_contact = fine_contact, coarse_contact
-            gathered = transfer.full_weighting(fine_contact.astype(float))
-            self._restrict_contact = 0.5 * _inverse(gathered, where=coarse_contact)
-            self._contact_share = _inverse(spread, where=fine_contact)
+        self._fine_contact, self._coarse_contact = fine_contact, coarse_contact
+        gathered = transfer.full_weighting(fine_contact.astype(float))
+        self._restrict_contact = 0.5 * _inverse(gathered, where=coarse_contact)
+        self._contact_share = _inverse(spread, where=fine_contact)
 
     def bilinear(self, coarse):
         """A field that knows neither fluid nor contact, such as a deflection, on the fine grid."""
@@ -124,7 +123,7 @@ class PartitionedTransfer:
         """Residual (lines, nx) of the fine grid to the coarse one."""
         transfer = self._transfer
         coarse = transfer.full_weighting(fine * self._fine_film) * self._coarse_film
-        if self._contact_moves:
+        if self._some_touch:
             coarse += transfer.full_weighting(fine * self._fine_contact) * self._restrict_contact
         return coarse
 
@@ -132,7 +131,7 @@ class PartitionedTransfer:
     def prolong(self, coarse):
         """Correction (lines, nx) of the coarse grid to the fine one."""
         transfer = self._transfer
-        if not self._contact_moves:
+        if not self._some_touch:
             fine = transfer.bilinear(coarse)
             fine *= self._film_share
             return fine

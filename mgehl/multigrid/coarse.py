@@ -4,7 +4,6 @@ import warnings
 
 import numpy as np
 from scipy.linalg import LinAlgWarning, lu_factor, lu_solve
-from scipy.sparse.linalg import splu
 
 from mgehl.discretization.compiled import compiled
 from mgehl.discretization.influence import influence_coefficients
@@ -13,12 +12,12 @@ from mgehl.multigrid.stencil_matrix import stencil_rows
 
 
 class CoarseSolve:
-    """LU of J with its border, sparse in a rigid gap; ranks without lines have nothing to do. While the
+    """LU of J with its border; ranks without lines have nothing to do. While the
     last rank factors, the first one factors what stands at cliffs (`cliffs`)."""
 
     def __init__(self, jacobian):
         self._jacobian = jacobian
-        if jacobian.space.owns_border and not jacobian.rigid:
+        if jacobian.space.owns_border:
             self._K = dense_influence(jacobian.grid.mesh, jacobian.contact.kernel)
             self._room = np.empty((jacobian.grid.mesh.nodes + 1) ** 2)
 
@@ -28,8 +27,7 @@ class CoarseSolve:
         jacobian = self._jacobian
         if jacobian.grid.has_lines:
             lin = jacobian.linearisation
-            stencils = [lin.by_unknown] if jacobian.rigid else [lin.by_unknown, lin.B]
-            self._rows = [self._gathered(stencil) for stencil in stencils]
+            self._A, self._B = (self._gathered(stencil) for stencil in (lin.by_unknown, lin.B))
             self._given = jacobian.grid.to_last(jacobian.given)
             contents = np.zeros(jacobian.grid.shape) if jacobian.contents is None else jacobian.contents
             self._moves = jacobian.grid.to_last(1.0 - contents)
@@ -37,17 +35,14 @@ class CoarseSolve:
     @event(COARSE)
     def factor(self):
         """Form the matrix on the last rank and factor it; the others return at once."""
-        if self._jacobian.space.owns_border:
-            inverse = _sparse_inverse if self._jacobian.rigid else self._dense_inverse
-            self._invert = inverse(*self._rows)
-
-    def _dense_inverse(self, A, B):
-        """Function that solves J with its border."""
+        if not self._jacobian.space.owns_border:
+            return
         with warnings.catch_warnings():
             # Of a singular matrix: the iteration that made it ends by itself.
             warnings.simplefilter("ignore", LinAlgWarning)
             masks = self._given.ravel(), self._moves.ravel()
-            return DenseInverse(A, B, self._K, self._jacobian.load_weight, *masks, self._room)
+            weight = self._jacobian.load_weight
+            self._invert = DenseInverse(self._A, self._B, self._K, weight, *masks, self._room)
 
     @event(COARSE)
     def solve(self, r, load):
@@ -69,15 +64,6 @@ class CoarseSolve:
         grid, offsets = self._jacobian.grid, self._jacobian.linearisation.offsets
         whole = [grid.to_last(position) for position in stencil]
         return None if whole[0] is None else stencil_rows(offsets, np.stack(whole), 0, grid.mesh.nodes)
-
-
-def _sparse_inverse(A):
-    """Function that solves for the fluid in a rigid gap: its stencil is all that couples its nodes."""
-    try:
-        fluid = splu(A.tocsc())
-    except RuntimeError:  # singular: the iteration that made it ends by itself
-        return lambda whole: np.full_like(whole, np.nan)
-    return lambda whole: np.append(fluid.solve(whole[:-1]), whole[-1])
 
 
 class DenseInverse:

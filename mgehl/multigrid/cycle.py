@@ -27,15 +27,14 @@ from mgehl.multigrid.film_ends import end_halfway
 from mgehl.multigrid.jacobian import Jacobian
 from mgehl.multigrid.memory import Memory
 from mgehl.multigrid.options import by_default
-from mgehl.multigrid.smoother import RigidLineSmoother
 from mgehl.multigrid.smoother_choice import smoother_of
 
 IN_THE_CYCLE = {"2C": "3B", "S2C": "3B"}
 """The cycle's Couette schemes where the solved one leaves waves of two cells, which lines do not damp."""
 
-ASKEW_OR_APART = IN_THE_CYCLE | {"3B": "2B"}
-"""The same where the surfaces move at an angle to the lines, and where fluid and contact are solved apart
-(half of the work). Elsewhere 3B takes a third less by its own operators."""
+ASKEW = IN_THE_CYCLE | {"3B": "2B"}
+"""The same where the surfaces move at an angle to the lines. Elsewhere 3B takes a third less by its own
+operators."""
 
 DIRECT = 4097
 """Most nodes of a line between rough bodies that is solved directly: coarse grids do not see the peaks
@@ -66,22 +65,17 @@ class CycleSettings:
 
 
 class MultigridSolver:
-    """Flexible GMRES with one F-cycle for the bordered Jacobian of grid `level`. With a `rigid` gap it
-    solves for the fluid alone, without a convolution. Fluid solved `apart` leaves contact alone."""
+    """Flexible GMRES with one F-cycle for the bordered Jacobian of grid `level`."""
 
-    def __init__(
-        self, hierarchy, level, contact, scheme, settings=CycleSettings(), rigid=False, apart=False
-    ):
-        self._hierarchy = hierarchy
-        self._oblique = scheme.is_oblique and not (rigid or apart)
-        self._rough, self._in_valleys = settings.rough and not rigid, settings.in_valleys and not rigid
-        better = ASKEW_OR_APART if self._oblique or rigid or apart else IN_THE_CYCLE
+    def __init__(self, hierarchy, level, contact, scheme, settings=CycleSettings()):
+        self._hierarchy, self._oblique = hierarchy, scheme.is_oblique
+        self._rough, self._in_valleys = settings.rough, settings.in_valleys
+        better = ASKEW if self._oblique else IN_THE_CYCLE
         self._scheme = _scheme_of_cycle(settings.couette, scheme, better)
         first = self._first_grid(hierarchy.grids, level)
 
         def jacobian_on(number, scheme):
-            deflection = None if rigid else hierarchy.deflections[number]
-            return Jacobian(hierarchy.grids[number], deflection, contact, scheme)
+            return Jacobian(hierarchy.grids[number], hierarchy.deflections[number], contact, scheme)
 
         self.jacobians = [
             jacobian_on(number, self._scheme_of(level - number)) for number in range(first, level + 1)
@@ -93,7 +87,7 @@ class MultigridSolver:
             self.jacobian = jacobian_on(level, scheme)
         self._transfers = hierarchy.transfers[first:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
-        self._smoothers = [self._smoother(each, apart)(each, settings.omega) for each in self.jacobians[1:]]
+        self._smoothers = [self._smoother(each)(each, settings.omega) for each in self.jacobians[1:]]
         self._coarse = CoarseSolve(self.jacobians[0])
         cycle = FCycle(self.jacobians, self._partitioned, self._smoothers, self._coarse, settings.sweeps)
         self.memory = Memory(self.jacobian, cycle) if self._rough and self._smoothers else None
@@ -113,12 +107,10 @@ class MultigridSolver:
         coarse = replace(self._scheme, face_mobility="arithmetic")
         return replace(coarse, coarsenings=coarsenings) if self._oblique else coarse
 
-    def _smoother(self, jacobian, apart):
-        """The class of the smoother of a grid: a rigid gap has no K."""
-        if jacobian.rigid:
-            return RigidLineSmoother
+    def _smoother(self, jacobian):
+        """The class of the smoother of a grid."""
         grid = jacobian.grid.mesh.is_line, jacobian.holds_film
-        return smoother_of(*grid, self._in_valleys, jacobian is self.jacobians[-1], apart)
+        return smoother_of(*grid, self._in_valleys, jacobian is self.jacobians[-1])
 
     def free(self):
         """Destroy Mats and MPI datatypes; the KSP that uses them must be destroyed before."""
@@ -156,7 +148,7 @@ class MultigridSolver:
         `rate` is 1/time step of an implicit step, or one for each node, (lines, nx); zero for the steady
         equations. The evaluation forgets its faces and, where memory is short, the fluid.
         """
-        leaks = not (self.jacobian.rigid or self.jacobian.scheme.contact_law.closes_faces)
+        leaks = not self.jacobian.scheme.contact_law.closes_faces
         if self.jacobian is not self.jacobians[-1]:
             self.jacobian.linearise(evaluation, rows, rate, leaks)
         self.jacobians[-1].linearise(evaluation, rows, rate, leaks)

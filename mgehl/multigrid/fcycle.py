@@ -17,7 +17,7 @@ SECOND = 0.8
 class FCycle:
     """Python context of a PC: one cycle from zero solves for x and gives y, on the grids of the
     `jacobians`, coarsest first. Grid l > 0 has the smoother and the `PartitionedTransfer` l - 1; on grid 0
-    the `coarse` solve is direct. A sweep is a smoother's `relaxations`."""
+    the `coarse` solve is direct."""
 
     def __init__(self, jacobians, transfers, smoothers, coarse, sweeps):
         self._jacobians, self._transfers, self._smoothers = jacobians, transfers, smoothers
@@ -60,15 +60,13 @@ class FCycle:
         load *= coarse.load_scale / fine.load_scale
         e, dH, dH0 = self._coarse_corrections(level - 1, transfer.restrict(r), load, again)
         c = transfer.prolong(e)
-        dH = None if fine.rigid else transfer.bilinear(dH)
+        dH = transfer.bilinear(dH)
         return self._relaxed(level, r, c, dH, fine.space.border_in_team(dH0)), dH0
 
     def _coarse_corrections(self, level, r, load, again):
-        """Of P, its deflection (None in a rigid gap), and of H0, after one or two visits to a grid."""
+        """Of P, its deflection, and of H0, after one or two visits to a grid."""
         jacobian = self._jacobians[level]
         e, dH0 = self._corrections(level, r, load, again)
-        if jacobian.rigid:
-            return e, None, dH0
         dH = jacobian.deflection(e)
         if not (again and self._is_visited_twice(level)):
             return e, dH, dH0
@@ -83,10 +81,10 @@ class FCycle:
     def _relaxed(self, level, r, c, dH, dH0):
         """The correction `c`, whose deflection is `dH`, after the relaxations of grid `level`."""
         jacobian, smoother = self._jacobians[level], self._smoothers[level - 1]
-        for to_come in range(self._sweeps * smoother.relaxations - 1, -1, -1):
+        for to_come in range(self._sweeps - 1, -1, -1):
             product = jacobian.product(c, dH, dH0)
             relaxed = smoother.relax(np.subtract(r, product, out=product))
             c += relaxed
-            if to_come and not jacobian.rigid:
+            if to_come:
                 dH += jacobian.deflection(relaxed)
         return c

@@ -8,7 +8,7 @@ import numpy as np
 from petsc4py import PETSc
 
 from mgehl.discretization.axes import own
-from mgehl.discretization.kernels import apply_jacobian, apply_stencil
+from mgehl.discretization.kernels import apply_jacobian
 from mgehl.discretization.residual import linearise, shifted
 from mgehl.discretization.rows import FLOW, PRESSURE
 from mgehl.discretization.status import CONTACT
@@ -96,13 +96,11 @@ def _sent_from_last(comm, number):
 
 
 class Jacobian:
-    """Python context of the bordered Jacobian's Mat. Without a `deflection` the gap is rigid: K = 0, H0 is
-    given, and no convolution is made."""
+    """Python context of the bordered Jacobian's Mat."""
 
     def __init__(self, grid, deflection, contact, scheme):
         self.grid, self.space = grid, BorderedSpace(grid)
         self.deflection, self.scheme, self.contact = deflection, scheme, contact
-        self.rigid = deflection is None
         mesh = grid.mesh
         # One load row against nx ny others: with this weight the norm of the bordered residual
         # sees a load error as it sees an rms residual of that size.
@@ -137,7 +135,7 @@ class Jacobian:
         that closes no faces has a flow balance, too.
         """
         storage, room = Storage.begun(evaluation.fluid, rate), self.linearisation
-        self.linearisation = linearise(evaluation.by(self.scheme), rows, storage, self.rigid, room, leaks)
+        self.linearisation = linearise(evaluation.by(self.scheme), rows, storage, room=room, leaks=leaks)
         self.given, torn = rows == PRESSURE, evaluation.fluid.torn
         contents = (rows == FLOW) & (torn is not None and own(torn))
         self.contents = contents if self.grid.count(contents) else None  # on all ranks, or on none
@@ -158,31 +156,24 @@ class Jacobian:
         self.linearisation = None
 
     def mult(self, _mat, x, y):
-        """y = J x; one convolution unless the gap is rigid."""
+        """y = J x; one convolution."""
         dP, dH0 = self.space.parts_in_team(x.getArray(readonly=True))
-        if self.rigid:
-            self.space.write(y, self.product(dP, None, dH0), dH0)
-        else:
-            load = self.load_of(dP)
-            dH = self.deflection(self.pressures(dP))
-            if self.witness:
-                self.witness(dP, dH, dH0)
-            self.space.write(y, self.product(dP, dH, dH0), load)
+        load = self.load_of(dP)
+        dH = self.deflection(self.pressures(dP))
+        if self.witness:
+            self.witness(dP, dH, dH0)
+        self.space.write(y, self.product(dP, dH, dH0), load)
 
     def load_of(self, dP):
         """s^T dP: what a correction of P, (lines, nx), adds to the load; known to ranks with lines only."""
         return self.load_weight * self.grid.sum_of_team(self.pressures(dP).sum())
 
     def product(self, dP, dH, dH0):
-        """A dP + B (dH + dH0), (lines, nx), of a known deflection `dH`; the next call overwrites it. In a
-        rigid gap A dP alone."""
+        """A dP + B (dH + dH0), (lines, nx), of a known deflection `dH`; the next call overwrites it."""
         grid, lin = self.grid, self.linearisation
         grid.halo(dP, out=self._dP)
-        if self.rigid:
-            apply_stencil(lin.offsets, lin.A, self._dP, self._out)
-        else:
-            grid.halo(dH, out=self._dH)
-            apply_jacobian(lin.offsets, lin.A, lin.B, self._dP, self._dH, dH0, self._out)
+        grid.halo(dH, out=self._dH)
+        apply_jacobian(lin.offsets, lin.A, lin.B, self._dP, self._dH, dH0, self._out)
         if lin.carried is not None:
             for offset, derivative in lin.carried.items():
                 self._out += derivative * shifted(self._dP, offset)

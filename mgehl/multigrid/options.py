@@ -4,8 +4,8 @@ from contextlib import contextmanager
 
 from petsc4py import PETSc
 
-OF_A_RUN, OF_ITS_FLUID, OF_NEARBY_NODES = "mgehl_", "mgehl_fluid_", "mgehl_nearby_"
-"""Prefixes of the options of a run's solvers, of fluid solved apart, of nearby nodes solved at once."""
+OF_A_RUN, OF_NEARBY_NODES = "mgehl_", "mgehl_nearby_"
+"""Prefixes of the options of a run's solvers, of nearby nodes solved at once."""
 
 
 @contextmanager

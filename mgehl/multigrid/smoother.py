@@ -6,7 +6,6 @@ from mgehl.discretization.axes import own
 from mgehl.discretization.band_kernels import REACH
 from mgehl.discretization.bands import (
     LINES_BESIDE,
-    REACH_OF_STENCIL,
     LineBands,
     distributive_nodes,
     influence_of_columns,
@@ -16,26 +15,27 @@ from mgehl.discretization.kernels import distribute
 from mgehl.grid.events import LINES, event
 
 
-class XLines:
-    """What all smoothers have: the bands of the x-lines, each node coupled to `reach` on each side."""
+class LineSmoother:
+    """Relaxation c = omega Q T^-1 r, T the x-lines' part of J Q. Without Q it diverges: K is long-ranged,
+    and a band of it overshoots on smooth corrections; K Q decays fast enough."""
 
-    relaxations = 1
-    """Of one sweep."""
+    words = "lines along x"
+    """Of a recipe."""
     sees_cliffs = False
     """Whether it relaxes what stands at cliffs of the mobility as well as the rest."""
     way = ""
     """Which of several ways it takes; there is but one."""
 
-    def __init__(self, jacobian, omega, reach):
+    def __init__(self, jacobian, omega):
         self._jacobian, self._omega, grid = jacobian, omega, jacobian.grid
-        self._bands = LineBands(*grid.shape, reach, grid.first)
-        self._w = np.zeros(grid.shape)
+        self._bands = LineBands(*grid.shape, grid.first)
+        self._near = influence_nearby(jacobian)
+        self._share = 0.5 if grid.mesh.is_line else 0.25
+        self._K00, self._kappa = self._near[0, 0], influence_of_columns(self._near, self._share)
+        self._w, self._ghosted_w = np.zeros(grid.shape), np.zeros(grid.ghosted_shape)
 
     def free(self):
         """Free what PETSc does not free."""
-
-    def partition(self, rows):
-        """Take note of the kinds of `rows` (lines, nx) of the present linearisation."""
 
     def forget(self):
         """Free the memory of the factors."""
@@ -43,26 +43,6 @@ class XLines:
 
     def factor_alone(self):
         """Factor what one rank factors for all: of lines nothing."""
-
-    def _solve_lines(self, r):
-        """Solve the lines for the residual `r`, into `_w`."""
-        self._bands.solve(r, self._w)
-
-
-class LineSmoother(XLines):
-    """Relaxation c = omega Q T^-1 r, T the x-lines' part of J Q. Without Q it diverges: K is long-ranged,
-    and a band of it overshoots on smooth corrections; K Q decays fast enough."""
-
-    words = "lines along x"
-    """Of a recipe."""
-
-    def __init__(self, jacobian, omega):
-        super().__init__(jacobian, omega, REACH)
-        grid = jacobian.grid
-        self._near = influence_nearby(jacobian)
-        self._share = 0.5 if grid.mesh.is_line else 0.25
-        self._K00, self._kappa = self._near[0, 0], influence_of_columns(self._near, self._share)
-        self._ghosted_w = np.zeros(grid.ghosted_shape)
 
     @event(LINES)
     def partition(self, rows):
@@ -89,6 +69,10 @@ class LineSmoother(XLines):
         self._solve_lines(r)
         return self._distributed(self._omega)
 
+    def _solve_lines(self, r):
+        """Solve the lines for the residual `r`, into `_w`."""
+        self._bands.solve(r, self._w)
+
     def _distributed(self, omega, along_x=True, along_y=True):
         """The correction omega Q w in the place of w; what is handed over as of `kernels.distribute`."""
         jacobian = self._jacobian
@@ -102,31 +86,6 @@ class LineSmoother(XLines):
 
     def view(self, viewer):
         viewer.printfASCII(f"  distributive x-line Jacobi, omega {self._omega}, {REACH} neighbours\n")
-
-
-class RigidLineSmoother(XLines):
-    """The same of a rigid gap, c = omega T^-1 r: without K there is nothing to distribute."""
-
-    relaxations = 2
-
-    def __init__(self, jacobian, omega):
-        super().__init__(jacobian, omega, REACH_OF_STENCIL)
-
-    @event(LINES)
-    def factor(self):
-        """Factor the lines of the present linearisation."""
-        self._bands.factor_stencil(self._jacobian.linearisation, self._jacobian.given)
-
-    @event(LINES)
-    def relax(self, r):
-        """Correction for the residual `r`, both (lines, nx); the next call overwrites it."""
-        self._solve_lines(r)
-        self._w *= self._omega
-        self._w[self._jacobian.given] = 0.0
-        return self._w
-
-    def view(self, viewer):
-        viewer.printfASCII(f"  x-line Jacobi of a rigid gap, omega {self._omega}\n")
 
 
 def influence_nearby(jacobian, turned=False):

@@ -49,9 +49,9 @@ def relax_cavitation_set(problem, state, evaluation=None):
     """Relax pressures, fillings and status of the weakly coupled fluid; return how many nodes changed.
 
     Updates `state` in place if the set moved; else Newton's values stand, and its `evaluation`. Zebra order
-    by global line number: ranks do not matter. Rigid gaps and steps in time would gain nothing.
+    by global line number: ranks do not matter. Steps in time would gain nothing.
     """
-    if not (problem.scheme.cavitation and problem.is_elastic) or problem.storage is not None:
+    if not problem.scheme.cavitation or problem.storage is not None:
         return 0
     grid, evaluation = problem.grid, (evaluation or problem.evaluate(state)).filled(None)
     movable = _relaxable(problem, evaluation, state)
@@ -84,13 +84,6 @@ def relax_cavitation_set(problem, state, evaluation=None):
 def overflows(state):
     """Cavities that hold more than their gap, (lines, nx)."""
     return (state.status == CAVITATED) & (state.filling > 1.0)
-
-
-def cavities_rest(problem, state):
-    """Whether no film pulls and no cavity overflows: nothing asks for another set at this gap. Where the
-    gap moves, too, the relaxation knows more: it finds what the pressure will ask for."""
-    pulls = (state.status == LUBRICATED) & (state.P <= problem.contact.tears_at)
-    return problem.grid.count(pulls | overflows(state)) == 0
 
 
 def weakly_coupled(problem, evaluation, status):

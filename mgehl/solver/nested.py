@@ -7,8 +7,8 @@ import numpy as np
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.solver.dry import dry_pressure, guess_on_finest
-from mgehl.solver.on_grid import LevelSolve, fluid_on, solve_on
-from mgehl.solver.problem import DIVERGED, ContactProblem, State
+from mgehl.solver.on_grid import LevelSolve, solve_on
+from mgehl.solver.problem import DIVERGED, ContactProblem
 from mgehl.solver.recipe import (
     DRY,
     FULL_FILM,
@@ -19,7 +19,6 @@ from mgehl.solver.recipe import (
     recipe_of,
 )
 from mgehl.solver.relaxation import relax
-from mgehl.solver.settings import COARSE_TOLERANCE
 
 FLAT = 0.1
 """Largest gap, and largest overlap, that the dry guess may leave, over the formula's film that is laid on
@@ -45,8 +44,6 @@ def nested_iteration(task):
             state = first_guess(problem, recipe.begins, P)
         else:
             state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
-        if recipe.fluid_apart:
-            guess_fluid(hierarchy, problem, state, settings)
         outcome = _solve(task, problem, state, own, solve)
         if not outcome.cycles[-1].residual < DIVERGED:
             break  # nothing to start the next grid from; the outcome says why
@@ -107,34 +104,6 @@ def _first_guess_of_peaks(problem, begins, P, film):
         nothing = np.zeros(problem.grid.shape)
         return problem.state(P, H0, np.where(pressed, CONTACT, CAVITATED), nothing, nothing)
     return problem.state(P, H0, np.full(problem.grid.shape, LUBRICATED))
-
-
-def guess_fluid(hierarchy, problem, state, settings):
-    """Set the fluid around a contact start, the `state`, in place, to that of the coarser grids in its gap.
-
-    The gap is injected, no convolution is made. The boundary of cavities moves by a few nodes a step, too
-    slowly for a fine grid. Fluid beside contact on the coarse grid is left: pressures jump there.
-    """
-    level = hierarchy.grids.index(problem.grid) - 1
-    grid, fewest = hierarchy.grids[level], settings.first_nodes
-    if level < 0 or grid.mesh.nx < fewest or not problem.scheme.cavitation:
-        return
-    transfer, deflection = hierarchy.transfers[level], hierarchy.deflections[level]
-    coarse_problem = ContactProblem(grid, deflection, problem.contact, problem.scheme)
-    P, H, status, filling = (
-        transfer.inject(array) for array in (state.P, state.H, state.status, state.filling)
-    )
-    coarse = State(P, state.H0, H, status, P.copy(), filling)
-    guess_fluid(hierarchy, coarse_problem, coarse, settings)
-    with fluid_on(hierarchy, coarse_problem, settings.cycle) as fluid:
-        fluid.solve(coarse, COARSE_TOLERANCE, to_rest=False)
-    beside_contact, empty = (
-        transfer.bilinear((coarse.status == kind).astype(float)) > 0.0 for kind in (CONTACT, CAVITATED)
-    )
-    film = (state.status == LUBRICATED) & ~beside_contact
-    state.P[film] = transfer.bilinear(coarse.P)[film]
-    state.p[film] = state.P[film]
-    state.status[film & empty & (state.P == problem.contact.tears_at)] = CAVITATED
 
 
 def interpolate(transfer, problem, coarse):

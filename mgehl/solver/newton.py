@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 from petsc4py import PETSc
 
-from mgehl.discretization.status import CONTACT, LUBRICATED
+from mgehl.discretization.status import CONTACT
 from mgehl.grid.events import linear_solve
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.journal import NOTHING_KEPT
@@ -27,20 +27,18 @@ from mgehl.solver.outcome import Cycle, Outcome
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.position import Position, Step
 from mgehl.solver.remembered import Remembered
-from mgehl.solver.rigid_gap import FLUID_AHEAD
 from mgehl.solver.snes import PythonSnes
 from mgehl.solver.squeeze import squeeze_rates
 from mgehl.solver.step_length import step_length
 
 
 class Newton(PythonSnes):
-    """Solves one `ContactProblem` with a `MultigridSolver`; the only one who changes its `Position`. With a
-    `fluid` solver (`RigidGapFluid`) separable fluid is solved at each new gap, without convolutions: right
-    where contact carries the load. `monitor` is called with every `Cycle`."""
+    """Solves one `ContactProblem` with a `MultigridSolver`; the only one who changes its `Position`.
+    `monitor` is called with every `Cycle`."""
 
-    def __init__(self, problem, multigrid, settings, fluid=None, monitor=None):
+    def __init__(self, problem, multigrid, settings, monitor=None):
         super().__init__(multigrid, settings)
-        self._problem, self._settings, self._fluid = problem, settings, fluid
+        self._problem, self._settings = problem, settings
         self._monitor = monitor or (lambda cycle: None)
         self._load_scale = multigrid.jacobian.load_scale
         self._partition = Partition(problem)
@@ -103,43 +101,21 @@ class Newton(PythonSnes):
         problem, state, changes = self._problem, self._position.state, self._position.changes
         how = how_sets_change(self._position, self._settings.by_film)
         self._in_turn = how is SetsChange.IN_TURN
-        if self._fluid:
-            before = state.status.copy()
-            reached = self._position.cycles[-1].residual if self._position.cycles else 1.0
-            tolerance = FLUID_AHEAD * max(reached, self._settings.tolerance)
-            _, self._evaluation = self._fluid.solve(state, tolerance, to_rest=False)
-            changes.cavitated += problem.grid.count(before != state.status)
-        else:
-            evaluation, moved = problem.evaluate(state), 0
-            if how is SetsChange.AT_REST:
-                moved = relax_cavitation_set(problem, state, evaluation)
-            changes.cavitated += moved
-            self._evaluate(None if moved else evaluation)
+        evaluation, moved = problem.evaluate(state), 0
+        if how is SetsChange.AT_REST:
+            moved = relax_cavitation_set(problem, state, evaluation)
+        changes.cavitated += moved
+        if moved:
+            evaluation = problem.evaluate(state)
+        self._evaluation = problem.march_contents(state, evaluation)
         if self._partition.fill(state, changes, self._in_turn):
             self._partition.fit(state)
             self._evaluation = problem.evaluate(state)
 
     def _measure(self):
         """Evaluate the residual of the present state; add a row to the history."""
-        position, tolerance = self._position, self._settings.tolerance
-        F, load = self._compute_function()
-        if self._fluid and position.changes.total == 0 and self._problem.rms(F) <= tolerance:
-            # The fluid was solved at the gap before: what counts is F at its own.
-            self._take_own_gap()
-            self._evaluation = self._problem.evaluate(position.state)
-            F, load = self._compute_function()
-        self._tell(F, load)
-        position.changes = Changes()
-
-    def _evaluate(self, evaluation=None):
-        """Evaluate the present state, unless it is known; march contents that nothing depends on."""
-        problem, state = self._problem, self._position.state
-        self._evaluation = problem.march_contents(state, evaluation or problem.evaluate(state))
-
-    def _take_own_gap(self):
-        """Give the state the gap of its own pressure."""
-        state = self._position.state
-        state.H = self._problem.gap(state.P, state.H0)
+        self._tell(*self._compute_function())
+        self._position.changes = Changes()
 
     def _correct(self):
         """Solve the linearised bordered system; return the `KSP.ConvergedReason`."""
@@ -163,11 +139,7 @@ class Newton(PythonSnes):
     def _pose(self):
         """Pose the linear system: rows, 1/time step; return its right-hand side, (lines, nx)."""
         problem, status = self._problem, self._position.state.status
-        F, frozen = self._space.read_pressure(self._f).copy(), None
-        if self._fluid:
-            frozen = (status == LUBRICATED) & self._fluid.separable(self._evaluation, status)
-            F[frozen] = 0.0
-        rows = problem.rows(status, frozen)
+        F, rows = self._space.read_pressure(self._f).copy(), problem.rows(status)
         rates = squeeze_rates(problem, self._evaluation, rows, F, self._settings)
         if problem.storage is not None:
             rates = rates + problem.storage.rate

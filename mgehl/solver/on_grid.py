@@ -1,14 +1,12 @@
 """A contact on one grid, from a state: the problem's solver is made here, used, and freed."""
 
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 
 from mgehl.multigrid.cycle import MultigridSolver
-from mgehl.multigrid.options import OF_ITS_FLUID
 from mgehl.solver.newton import Newton
 from mgehl.solver.recipe import A_STATE, recipe_of
-from mgehl.solver.rigid_gap import RigidGapFluid
 
 
 @dataclass(frozen=True)
@@ -44,27 +42,11 @@ def solve_on(task, problem, state, recipe, solve):
 
 @contextmanager
 def newton_on(hierarchy, problem, recipe, tell=None):
-    """A `Newton` for a problem, with its linear solvers (collective)."""
-    apart = recipe.fluid_apart
-    with fluid_on(hierarchy, problem, recipe.cycle) if apart else nullcontext() as fluid:
-        multigrid = _multigrid(hierarchy, problem, recipe.cycle, apart=apart)
-        newton = Newton(problem, multigrid, recipe.newton, fluid, tell)
-        try:
-            yield newton
-        finally:
-            newton.free()
-
-
-@contextmanager
-def fluid_on(hierarchy, problem, settings):
-    """A `RigidGapFluid` for a problem, with its linear solver by `CycleSettings` (collective)."""
-    fluid = RigidGapFluid(problem, _multigrid(hierarchy, problem, settings, rigid=True), OF_ITS_FLUID)
-    try:
-        yield fluid
-    finally:
-        fluid.free()
-
-
-def _multigrid(hierarchy, problem, settings, **how):
+    """A `Newton` for a problem, with its linear solver (collective)."""
     level = hierarchy.grids.index(problem.grid)
-    return MultigridSolver(hierarchy, level, problem.contact, problem.scheme, settings, **how)
+    multigrid = MultigridSolver(hierarchy, level, problem.contact, problem.scheme, recipe.cycle)
+    newton = Newton(problem, multigrid, recipe.newton, tell)
+    try:
+        yield newton
+    finally:
+        newton.free()

@@ -128,9 +128,9 @@ class Problem:
         grid = self.grid
         return grid.halo(state.P), grid.halo(state.H), grid.halo_status(state.status)
 
-    def rows(self, status, frozen=None):
-        """The kind of row of every node, (lines, nx); where `frozen` the pressure is held."""
-        return rows_of(status, not self.is_elastic, frozen, self.feeding(status))
+    def rows(self, status):
+        """The kind of row of every node, (lines, nx)."""
+        return rows_of(status, not self.is_elastic, self.feeding(status))
 
     def residual(self, evaluation, status):
         """Rows of the nonlinear residual, (lines, nx), by what the nodes are now."""

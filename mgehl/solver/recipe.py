@@ -79,8 +79,6 @@ class Recipe:
     """Whether it begins on coarse grids, at speeds that they resolve."""
     or_otherwise: bool
     """Whether it begins anew where the first way fails, from the dry contact, then from a thick film."""
-    fluid_apart: bool
-    """Whether fluid beside contact is solved at each gap by itself."""
     newton: NewtonSettings
     cycle: CycleSettings
 
@@ -100,7 +98,6 @@ def recipe_of(settings, contact, begins=None):
         # work, and one three times as thick is not found (random balls, 257 nodes).
         on_coarse_grids=start == FULL_FILM and not touching and settings.method != "relaxation",
         or_otherwise=start == FULL_FILM and touching,
-        fluid_apart=closed and law.closes_faces,
         newton=_newton(settings, contact, peaks, in_time=closed or touching or start == UNSEEN_FILM),
         cycle=replace(settings.cycle, rough=rough, in_valleys=peaks in (NEAR, TOUCHING)),
     )

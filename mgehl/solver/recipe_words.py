@@ -53,8 +53,6 @@ def recipe_words(recipe, is_line, at_rest=False):
     yield f"begins {AT_REST if at_rest else f'{BEGINS[recipe.begins]}, {grids}'}"
     if recipe.or_otherwise:
         yield "where that fails, from the dry contact, then from a film that covers the peaks, slowed down"
-    if recipe.fluid_apart:
-        yield "fluid beside contact is solved at each gap, apart from the linear systems"
     yield _steps(newton)
     memory = "; corrections of one system are remembered for the next" if recipe.cycle.rough else ""
     yield f"smoother: {_smoother(recipe, is_line)}{memory}"
@@ -65,7 +63,7 @@ def _smoother(recipe, is_line):
     cycle = recipe.cycle
     if is_line and cycle.rough:
         return f"none, up to {DIRECT} nodes of a line are solved directly"
-    return smoother_of(is_line, in_valleys=cycle.in_valleys, finest=True, apart=recipe.fluid_apart).words
+    return smoother_of(is_line, in_valleys=cycle.in_valleys, finest=True).words
 
 
 def _steps(newton):
@@ -89,7 +87,6 @@ def plain(recipe):
         "begins": recipe.begins,
         "on_coarse_grids": recipe.on_coarse_grids,
         "or_otherwise": recipe.or_otherwise,
-        "fluid_apart": recipe.fluid_apart,
         **newton,
         "smoother": "in valleys" if recipe.cycle.in_valleys else "by lines",
         "remembers": recipe.cycle.rough,

@@ -9,7 +9,6 @@ from mgehl.config_sections import SolverSection
 from mgehl.discretization.scheme import Scheme
 from mgehl.multigrid.cycle import CycleSettings
 from mgehl.solver.relaxation import RelaxationSettings
-from mgehl.solver.rigid_gap import LARGEST_STEP
 from mgehl.solver.squeeze import SQUEEZE
 
 COARSE_TOLERANCE = 1e-4
@@ -33,8 +32,9 @@ class NewtonSettings:
     """Steps in which contact may spread before a solve is given up; None: any."""
     linear_tolerance: float = SolverSection.linear_tolerance
     """Relative tolerance of GMRES in a step: looser ones take more steps of fewer iterations."""
-    max_pressure_step: float = LARGEST_STEP
-    """Largest change of a pressure in one step, over p_h. A longer step is shortened as a whole."""
+    max_pressure_step: float = 0.3
+    """Largest change of a pressure in one step, over p_h. A longer step is shortened as a whole: near
+    a fold it leads astray."""
     over_largest: bool = False
     """Whether it is over the largest pressure, where that is more than p_h."""
     by_film: bool = False

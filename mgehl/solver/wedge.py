@@ -4,13 +4,9 @@ import numpy as np
 
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.multigrid.assembled import AssembledSolver
-from mgehl.multigrid.options import OF_A_RUN
 from mgehl.solver.outcome import Outcome
 from mgehl.solver.problem import Problem, State
 from mgehl.solver.rigid_gap import RigidGapFluid
-
-LINEAR_TOLERANCE = 1e-11
-"""Reduction of the residual by one linear solve; a second removes what rounding left; 1e-3 would do."""
 
 
 class WedgeProblem(Problem):
@@ -40,15 +36,12 @@ def solve_wedge(grid, bearing, scheme, tolerance, max_steps, before_step=lambda:
     """Solve on `grid`; return the `WedgeProblem` and an `Outcome` of `FluidStep`s. `tolerance` is for the
     rms residual, full film's Couette term being 1; `before_step` may raise what ends the run."""
     problem = WedgeProblem(grid, bearing, scheme)
-    multigrid = AssembledSolver(grid)
-    fluid = RigidGapFluid(problem, multigrid, OF_A_RUN, LINEAR_TOLERANCE)
-    state = problem.first_guess()
+    fluid, state = RigidGapFluid(problem, AssembledSolver(grid)), problem.first_guess()
     try:
-        steps, _ = fluid.solve(state, tolerance, max_steps, before_step)
+        steps = fluid.solve(state, tolerance, max_steps, before_step)
         # Once more: what the first solve left would show in the flow balance.
         if steps[-1].residual <= tolerance:
-            again, _ = fluid.solve(state, 0.0, 1)
-            steps = steps[:-1] + again
+            steps = steps[:-1] + fluid.solve(state, 0.0, 1)
     finally:
         fluid.free()
     state.filling[state.status != CAVITATED] = 1.0  # what has become film may say more

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mgehl.discretization.rows import PRESSURE, rows_of
+from mgehl.discretization.rows import rows_of
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.grid.transfers import PartitionedTransfer
 
@@ -98,16 +98,6 @@ class TestPartitioned:
         np.testing.assert_allclose(coarse[coarse_status == CONTACT], 2.0, rtol=1e-13)
         fine = partitioned.prolong(np.where(coarse_status == CONTACT, 5.0, 0.0))
         np.testing.assert_allclose(fine[status == CONTACT], 5.0, rtol=1e-13)
-
-    def test_frozen_film_has_no_part_in_it(self, transfer, status, coarse_status):
-        """Its pressure is given: what it has is neither gathered nor corrected."""
-        rows, coarse_rows = (rows_of(each, frozen=each == LUBRICATED) for each in (status, coarse_status))
-        partitioned = PartitionedTransfer(transfer)
-        partitioned.partition((coarse_status, coarse_rows), (status, rows))
-        ones, coarse_ones = np.ones(status.shape), np.ones(coarse_status.shape)
-        np.testing.assert_array_equal(partitioned.restrict(ones)[coarse_rows == PRESSURE], 0.0)
-        np.testing.assert_array_equal(partitioned.prolong(coarse_ones)[rows == PRESSURE], 0.0)
-        assert (partitioned.prolong(coarse_ones)[status == CONTACT] > 0.0).all()
 
 
 def test_on_one_line_full_weighting_is_half_of_the_adjoint_of_bilinear(make_line):

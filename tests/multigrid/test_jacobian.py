@@ -23,21 +23,20 @@ def unknown(problem, state, dP):
     return np.where(marched, 0.0, dP)
 
 
-def rows(problem, state, dP, dH0, step, rigid=False):
+def rows(problem, state, dP, dH0, step):
     """Residual and load deficit a step along a direction, the partition unchanged: in cavities that feed a
     film it is the filling that moves."""
     cavity = state.status == CAVITATED
     P, H0 = state.P + step * np.where(cavity, 0.0, dP), state.H0 + step * dH0
-    H = state.H if rigid else problem.gap(P, H0)
     filling = state.filling + step * np.where(cavity, dP, 0.0)
-    moved = State(P, H0, H, state.status, filling=filling)
+    moved = State(P, H0, problem.gap(P, H0), state.status, filling=filling)
     return problem.residual(problem.evaluate(moved), moved.status), problem.load_deficit(P)
 
 
-def differences(problem, state, dP, dH0, rigid=False):
+def differences(problem, state, dP, dH0):
     """Central differences of the residual and of the load deficit."""
-    ahead, load_ahead = rows(problem, state, dP, dH0, STEP, rigid)
-    behind, load_behind = rows(problem, state, dP, dH0, -STEP, rigid)
+    ahead, load_ahead = rows(problem, state, dP, dH0, STEP)
+    behind, load_behind = rows(problem, state, dP, dH0, -STEP)
     return (ahead - behind) / (2 * STEP), (load_ahead - load_behind) / (2 * STEP)
 
 
@@ -97,23 +96,6 @@ def test_a_time_step_stores_what_flows_in(make_problem, rough_state, make_jacobi
     ahead, behind = (residual(problem.evaluate(each), rows) for each in moved)
     film = rows == FLOW
     assert_close(r[film], ((ahead - behind) / (2.0 * STEP))[film])
-
-
-@pytest.mark.parametrize("contact", [False, True], ids=["film", "contact"])
-def test_rigid_gap(make_problem, rough_state, make_jacobian, make_vec, contact):
-    """No deflection: contact pressures are given, H0 is its own row, no convolution is made."""
-    problem = make_problem(nodes=33)
-    state = rough_state(problem, contact)
-    dP, dH0 = direction(problem)
-    dP = unknown(problem, state, dP)
-    before = problem.deflection.count
-    r, border = apply(make_jacobian(problem, state, rigid=True), make_vec, dP, dH0)
-    assert problem.deflection.count == before
-    expected, _ = differences(problem, state, dP, dH0, rigid=True)
-    in_contact = state.status == CONTACT
-    assert_close(r[~in_contact], expected[~in_contact])
-    np.testing.assert_allclose(r[in_contact], -dP[in_contact] / problem.grid.mesh.dX, rtol=1e-12)
-    assert border == dH0
 
 
 @pytest.mark.parametrize("couette", ["1B", "3B"])

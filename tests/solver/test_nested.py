@@ -81,7 +81,7 @@ def test_dry_limit_of_an_elliptical_contact(solve, paper_contact):
 
 @pytest.mark.parametrize("speed, start", [(1.0, "film"), (5e-6, "contact")])
 def test_the_residual_is_that_of_the_final_pressures_at_their_own_gap(solve, paper_contact, speed, start):
-    """Fluid that is solved apart, at the gap before, must not flatter the residual."""
+    """Of a film's start and of a contact's."""
     solution = solve(paper_contact(speed), 65, start=start)
     problem, state = solution.problem, solution.outcome.state
     state.H = problem.gap(state.P, state.H0)
