@@ -20,7 +20,7 @@ def make_newton(make_hierarchy, paper_contact, in_the_end):
         problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
         recipe = recipe_of(SolverSettings(scheme=scheme, newton=NewtonSettings(**limits)), contact)
         multigrid = MultigridSolver(hierarchy, 1, contact, scheme, recipe.cycle)
-        return problem, in_the_end(kind.free, kind(problem, multigrid, recipe.newton, None, monitor))
+        return problem, in_the_end(kind.free, kind(problem, multigrid, recipe.newton, monitor))
 
     return make
 
