@@ -174,7 +174,7 @@ class TestSolutions:
         found = []
         for problem in (make_problem(comm=COMM), make_problem()):
             grid, scheme = problem.grid, replace(problem.scheme, contact_law=BoundaryFilm(1e-3))
-            problem.scheme, partition = scheme, Partition(problem, 0)
+            problem.scheme, partition = scheme, Partition(problem)
             torn = -np.abs(random(grid))
             status = np.where(problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
             state = State(lines(grid, torn), 0.0, np.ones(grid.shape), status)
