@@ -15,7 +15,7 @@ from mgehl.multigrid.stencil_matrix import stencil_rows
 
 
 class AssembledSolver:
-    """GMRES with algebraic multigrid for the fluid in a rigid gap; stands in for `MultigridSolver`.
+    """GMRES with algebraic multigrid for the fluid in a rigid gap.
     BoomerAMG where PETSc has hypre, else PETSc's own GAMG; PETSc options may change it."""
 
     def __init__(self, grid):

@@ -9,8 +9,8 @@ import sys
 from tempfile import TemporaryDirectory
 
 import numpy as np
+from smooth_by_chance import solve_all
 
-import mgehl
 from mgehl.config import config_from_tables
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.studies.chance import by_logarithm
@@ -28,7 +28,7 @@ POINTS = 1025
 
 
 def drawn(seed, number, nodes, file):
-    """The nested tables of a case, what its dimples are; writes their heights to `file`."""
+    """The nested tables of a case, and what its bodies are; writes the dimples' heights to `file`."""
     chance = np.random.default_rng([seed, number])
     smooth = merged(smooth_case(chance, drawn_bodies(chance)), {"grid": {"nodes": nodes}})
     config = config_from_tables(smooth)
@@ -41,7 +41,8 @@ def drawn(seed, number, nodes, file):
     dimples(chance, diameter, depth, covered, 8.0 * max(contact.hertz.a, contact.hertz.b), file)
     texture = {"file": file, "continuation": "periodic", "height_unit": "m", "position_unit": "m"}
     tables = smooth | {"surface": land, "second_surface": texture}
-    return tables, f"{1e9 * depth:.0f} nm deep, {1e6 * diameter:.0f} um wide, {covered:.2f} of the surface"
+    what = f"{1e9 * depth:.0f} nm deep, {1e6 * diameter:.0f} um wide, {covered:.2f} of the surface"
+    return tables, f"{1e-9 * smooth['contact']['reduced_modulus']:.0f} GPa, {what}"
 
 
 def dimples(chance, diameter, depth, covered, size, file):
@@ -57,20 +58,9 @@ def dimples(chance, diameter, depth, covered, size, file):
 
 def main(seed, cases, nodes=129):
     """Solve all; print them."""
-    found = 0
     with TemporaryDirectory() as folder:
-        for number in range(1, cases + 1):
-            tables, texture = drawn(seed, number, nodes, f"{folder}/{number}.npz")
-            result = mgehl.solve(config_from_tables(tables)).result
-            found += result.converged
-            print(
-                f"{number}: {1e-9 * tables['contact']['reduced_modulus']:.0f} GPa, {texture}: contact "
-                f"{result.contact.load_fraction:.2f} of the load, {result.work.convolutions:.0f} "
-                f"convolutions, made {result.mass.made_share:.1e}"
-                f"{'' if result.converged else f': {result.reason}'}",
-                flush=True,
-            )
-    print(f"{found} of {cases} found")
+        every = (drawn(seed, number, nodes, f"{folder}/{number}.npz") for number in range(1, cases + 1))
+        solve_all((what, tables) for tables, what in every)
 
 
 if __name__ == "__main__":

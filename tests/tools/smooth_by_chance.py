@@ -41,22 +41,32 @@ def drawn(seed, number):
     return tables | {"solver": {"start": start, "error": False}}
 
 
-def main(seed, cases):
-    """Solve all; print them."""
-    found = 0
-    for number in range(1, cases + 1):
-        tables = drawn(seed, number)
+def solve_all(cases):
+    """Solve the (words, nested tables) of all; print a line for each, and how many are found."""
+    found = number = 0
+    for number, (what, tables) in enumerate(cases, 1):
         result = mgehl.solve(config_from_tables(tables)).result
         found += result.converged
         print(
-            f"{number}: {tables['motion']['speed']:.2g} m/s, {tables['grid']['nodes']} nodes from "
-            f"{tables['solver']['start']}: {result.resolution.inlet_cells:.2f} cells, film "
-            f"{result.central_film_nm:.4g} nm, {result.work.convolutions:.0f} convolutions, made "
-            f"{result.mass.made_share:.1e}{'' if result.converged else f': {result.reason}'}",
+            f"{number}: {what}: {result.resolution.inlet_cells:.2f} cells, film "
+            f"{result.central_film_nm:.4g} nm, contact {result.contact.load_fraction:.2f} of the load, "
+            f"{result.work.convolutions:.0f} convolutions, made {result.mass.made_share:.1e}"
+            f"{'' if result.converged else f': {result.reason}'}",
             flush=True,
         )
-    print(f"{found} of {cases} found")
+    print(f"{found} of {number} found")
+
+
+def main(seed, cases):
+    """Solve all; print them."""
+    every = (drawn(seed, number) for number in range(1, cases + 1))
+    solve_all((_words(tables), tables) for tables in every)
+
+
+def _words(tables):
+    speed, nodes = tables["motion"]["speed"], tables["grid"]["nodes"]
+    return f"{speed:.2g} m/s, {nodes} nodes from {tables['solver']['start']}"
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))
+    main(*(int(each) for each in sys.argv[1:]))
