@@ -110,7 +110,7 @@ def inlet_grids(case):
     # In the axes of the solve, whose X may be the user's y: other cells, other speeds.
     settings = on_mesh(parts.settings, parts.contact, parts.mesh)
     solves = planned_solves(_with_coarser(parts.mesh), parts.contact, settings)
-    speeds = {level: solve.speed for level, solve in solves}
+    speeds = {level: solve.speed for level, solve, _ in solves}
     return [
         InletGrid(mesh.nx, inlet_cells(case.contact, mesh, scene), speeds.get(level))
         for level, mesh in enumerate(_with_coarser(case.mesh))

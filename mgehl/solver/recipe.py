@@ -143,7 +143,7 @@ def _newton(settings, contact, peaks, in_time):
         max_pressure_step=asked.max_pressure_step * (1.0 if rough else _more(contact)),
         over_largest=rough,
         by_film=by_film,
-        certain=CERTAIN if by_film else 0.0,
+        certain=max(asked.certain, CERTAIN if by_film else 0.0),
     )
 
 

@@ -14,6 +14,10 @@ from mgehl.solver.squeeze import SQUEEZE
 COARSE_TOLERANCE = 1e-4
 """Residual at which a coarse grid has served its purpose; 3e-5 to 1e-3 take the same work."""
 
+PASSING_TOLERANCE = 1e-3
+"""Residual at which a solve on the way from one speed to another is left, though its sets still change:
+1e-2 may leave the next step with too little film, 1e-4 takes half as much work again."""
+
 
 @dataclass(frozen=True)
 class NewtonSettings:
@@ -84,4 +88,9 @@ class SolverSettings:
     def roughly(self):
         """The same for solves whose answers only lead to others, as those of coarse grids."""
         newton = replace(self.newton, tolerance=COARSE_TOLERANCE)
+        return replace(self, newton=newton)
+
+    def in_passing(self):
+        """The same for solves that are only on the way to the next one on their grid."""
+        newton = replace(self.newton, tolerance=PASSING_TOLERANCE, certain=PASSING_TOLERANCE)
         return replace(self, newton=newton)

@@ -1,13 +1,19 @@
 """Whole solutions by nested iteration, against numbers that were calculated independently."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from contacts import contact_of, moes
 
+import mgehl
+from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import CONTACT
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.point import LOAD
 from mgehl.solver.inequality import check_pressure_inequality
+from mgehl.solver.nested import MOST_SLOWER, planned_solves
+from mgehl.solver.settings import SolverSettings
 
 MOES_DOMAIN = {"x": (-4.5, 1.5), "y": (-3.0, 3.0)}
 
@@ -19,6 +25,25 @@ def test_full_film_at_one_metre_per_second(solve, paper_contact):
     assert solution.films == (pytest.approx(407.620, rel=1e-5), pytest.approx(130.083, rel=1e-5))
     assert solution.finest_steps <= 15
     assert not np.any(solution.outcome.state.status == CONTACT)
+
+
+@pytest.mark.parametrize("speed, least", [(7.5e-3, 9), (3e-3, 10), (1.0, 2)])
+def test_a_film_is_never_led_far_at_once(paper_contact, speed, least):
+    """Where contact shuts its faces: speeds fall by at most half, and end at the one asked for."""
+    meshes = [Mesh(nodes, nodes, (-1.9, 1.3), (-1.5, 1.5)) for nodes in (17, 33, 65, 129, 257, 513)]
+    solves = list(planned_solves(meshes, paper_contact(speed), SolverSettings()))
+    levels, speeds = [level for level, _, _ in solves], [solve.speed for _, solve, _ in solves]
+    assert levels == sorted(levels) and len(solves) >= least
+    assert all(slower >= faster / (MOST_SLOWER * (1.0 + 1e-9)) for faster, slower in pairwise(speeds))
+    assert speeds[-1] == speed and solves[-1][2] == SolverSettings()
+
+
+def test_the_papers_film_takes_few_convolutions():
+    """513 nodes, 7.5 mm/s: led there at once, the first step closed 150 nodes; 487 convolutions for 70."""
+    asked = {"grid.nodes": 513, "solver.error": False}
+    summary = mgehl.solve(mgehl.load("configs/full_film.toml", asked)).summary
+    assert summary.converged and summary.work.convolutions < 140.0
+    assert summary.central_film_nm == pytest.approx(12.2545, rel=1e-5)
 
 
 def test_the_film_is_symmetric(solve, paper_contact):
