@@ -96,13 +96,13 @@ class Evaluation:
         """(leaving W, entering E) along each axis."""
         return self._flows()
 
-    def linearised_flows(self, rigid=False):
-        """The same with their derivatives by P and, unless the gap is `rigid`, by H."""
-        return self._flows(linearised=True, rigid=rigid)
+    def linearised_flows(self):
+        """The same with their derivatives by P and H."""
+        return self._flows(linearised=True)
 
-    def _flows(self, **how):
+    def _flows(self, linearised=False):
         state = self.fluid, self.status
-        return [flows(*state, axis, self.scheme, mobility, **how) for axis, mobility in self._along()]
+        return [flows(*state, axis, self.scheme, mobility, linearised) for axis, mobility in self._along()]
 
     def _along(self):
         """Each axis with the `FaceMobility` along it."""

@@ -15,11 +15,11 @@ from mgehl.discretization.kernels import add_poiseuille, add_poiseuille_slopes
 from mgehl.discretization.status import WALL, is_solid, open_faces
 
 
-def flows(fluid, status, axis, scheme, mobility, linearised=False, rigid=False):
+def flows(fluid, status, axis, scheme, mobility, linearised=False):
     """Flows (leaving W, entering E) through the faces along an axis: couette rho H - eps dP/distance.
 
     `fluid` and `status` are ghosted, `mobility` is the `FaceMobility`; the two are one object for a
-    conservative scheme. Derivatives only if they are to be `linearised`, by H unless `rigid`.
+    conservative scheme. Derivatives only if they are to be `linearised`.
     """
     couette = scheme.couette_flow
     solid = is_solid(status, scheme.contact_law.closes_faces)
@@ -30,7 +30,7 @@ def flows(fluid, status, axis, scheme, mobility, linearised=False, rigid=False):
     def flow(terms):
         """One of the two, its Couette part by `terms`."""
         nodes = _nodes_of_flow(axis, terms, couette) if linearised else ()
-        found = Flow(is_open.shape, nodes, rigid)
+        found = Flow(is_open.shape, nodes)
         _add_poiseuille(found, fluid, axis, mobility)
         if untreated:
             found.close(open_faces(solid, axis))
@@ -50,7 +50,7 @@ def _add_carried(flow, terms, couette, fluid, stops, axis):
     if fluid.torn is None:
         add_couette(flow, terms, couette, fluid, stops, axis)
         return
-    of_full = Flow(flow.value.shape, flow.by_P, not flow.by_H)
+    of_full = Flow(flow.value.shape, flow.by_P)
     add_couette(of_full, terms, couette, fluid, stops, axis)
     upstream = W if axis.couette >= 0.0 else E  # against the axis: a wedge's plate
     filling, torn = (axis.at(part, SHIFT[upstream]) for part in (fluid.filling, fluid.torn))

@@ -11,12 +11,12 @@ SHIFT = {WW: -1, W: 0, E: 1, EE: 2}
 
 class Flow:
     """A flow through the faces along an axis and its derivatives by P and H: `by_P` and `by_H` map node
-    positions (WW, W, E, EE) to arrays of the flow's shape; none by H of a `rigid` gap."""
+    positions (WW, W, E, EE) to arrays of the flow's shape."""
 
-    def __init__(self, shape, nodes=(), rigid=False):
+    def __init__(self, shape, nodes=()):
         self.value = np.zeros(shape)
         self.by_P = {node: np.zeros(shape) for node in sorted(nodes)}
-        self.by_H = {node: np.zeros(shape) for node in sorted(nodes) if not rigid}
+        self.by_H = {node: np.zeros(shape) for node in sorted(nodes)}
 
     def close(self, is_open):
         """Nothing passes where `is_open` is False."""

@@ -38,8 +38,7 @@ class Linearisation:
     offsets: np.ndarray
     """(lines, nodes) from a node to those it is coupled to, (offsets, 2)."""
     A: np.ndarray
-    B: np.ndarray | None
-    """None of a rigid gap."""
+    B: np.ndarray
     eps: np.ndarray
     """The nodes' mobility, (lines, nx): it tells a smoother where the Poiseuille flow is weak."""
     carried: dict | None = None
@@ -72,33 +71,30 @@ def residual(evaluation, rows):
     return F
 
 
-def linearise(evaluation, rows, storage=None, rigid=False, room=None, leaks=False):
-    """Derivatives of `residual` by P (A) and, unless the gap is `rigid`, by H (B). Where it `leaks` contact
-    nodes have a flow balance, too. The `storage` is all that nodes store.
+def linearise(evaluation, rows, storage=None, room=None, leaks=False):
+    """Derivatives of `residual` by P (A) and by H (B). Where it `leaks` contact nodes have a flow balance,
+    too. The `storage` is all that nodes store.
 
     A few lines at a time, for the processor's cache. The arrays of `room`, a `Linearisation` of the same
     kind that nobody needs any more, are used again.
     """
     fluid, offsets = evaluation.fluid, _offsets(evaluation)
-    A, B = (room.A, room.B) if room else _empty_stencils((len(offsets), *rows.shape), rigid)
+    A, B = (room.A, room.B) if room else np.empty((2, len(offsets), *rows.shape))
     for lines in few_lines(rows):
         part = evaluation.of_lines(lines)
-        found = part.linearised_flows(rigid)
+        found = part.linearised_flows()
         flowing = rows[lines] == FLOW
         flowing |= (rows[lines] == GAP) & leaks
         _set_rows(A[:, lines], flowing, part, offsets, found, "by_P")
-        if not rigid:
-            _set_rows(B[:, lines], flowing, part, offsets, found, "by_H")
+        _set_rows(B[:, lines], flowing, part, offsets, found, "by_H")
     if storage is not None:
         A[0] -= storage.by_P(fluid) * (rows == FLOW)
-        if not rigid:
-            B[0] -= storage.by_H(fluid) * (rows == FLOW)
+        B[0] -= storage.by_H(fluid) * (rows == FLOW)
     linearisation = Linearisation(np.array(offsets), A, B, own(fluid.eps))
     _sort_columns(linearisation, evaluation, rows, leaks)
     dX = evaluation.mesh.dX
     A[0] -= (rows == PRESSURE) / dX
-    if not rigid:
-        B[0] -= (rows == GAP) / dX
+    B[0] -= (rows == GAP) / dX
     return linearisation
 
 
@@ -114,8 +110,7 @@ def _sort_columns(linearisation, evaluation, rows, leaks):
         for offset in offsets:
             _taken(linearisation, contact, offset)
         for stencil in (linearisation.A, linearisation.B):
-            if stencil is not None:
-                stencil[:, closed] = 0.0
+            stencil[:, closed] = 0.0
     if torn is not None:
         taken = {offset: _taken(linearisation, torn, offset) for offset in offsets}
         # Cavities have columns of their own, though none of them carries anything.
@@ -155,10 +150,6 @@ def shifted(ghosted, offset):
     else:
         moved[:, -node:] = here[:, :node]
     return moved
-
-
-def _empty_stencils(shape, rigid):
-    return np.empty(shape), None if rigid else np.empty(shape)
 
 
 def _offsets(evaluation):

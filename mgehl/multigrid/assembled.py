@@ -41,7 +41,7 @@ class AssembledSolver:
     @event(ASSEMBLY)
     def linearise(self, evaluation, rows):
         """Linearise about an evaluated state with these kinds of `rows`, and assemble."""
-        linearisation = linearise(evaluation, rows, rigid=True)
+        linearisation = linearise(evaluation, rows)
         self.free()
         self._mat = self._assemble(linearisation)
         self._ksp.setOperators(self._mat)

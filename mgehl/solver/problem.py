@@ -48,7 +48,6 @@ class State(Kept):
 class Problem:
     """The fluid of a contact on one grid, in a gap that is given: `ContactProblem` has an elastic one."""
 
-    is_elastic = False
     storage = None
     """The `Storage` of the time step that is taken; None of what is steady."""
     K00 = 0.0
@@ -101,10 +100,7 @@ class Problem:
         return (status == CONTACT) & stops
 
     def feeding(self, status):
-        """Cavities whose content reaches film or contact, (lines, nx); all in a rigid gap, whose linear
-        systems take no convolution, and whose plate may move against the axis."""
-        if not self.is_elastic:
-            return status == CAVITATED
+        """Cavities whose content reaches film or contact, (lines, nx)."""
         if not self.scheme.contact_law.has_contact or self.scheme.motion == AT_REST:
             return np.zeros(status.shape, dtype=bool)
         receives = (status == LUBRICATED) | (status == CONTACT) & ~self._closed(status)
@@ -130,7 +126,7 @@ class Problem:
 
     def rows(self, status):
         """The kind of row of every node, (lines, nx)."""
-        return rows_of(status, not self.is_elastic, self.feeding(status))
+        return rows_of(status, self.feeding(status))
 
     def residual(self, evaluation, status):
         """Rows of the nonlinear residual, (lines, nx), by what the nodes are now."""
@@ -149,7 +145,6 @@ class Problem:
 class ContactProblem(Problem):
     """Gap, residual and load balance of a loaded contact on one grid."""
 
-    is_elastic = True
     load_share = 1.0
     """Load of the instant, over that of the contact."""
 

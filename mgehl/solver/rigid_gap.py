@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from petsc4py import PETSc
 
-from mgehl.discretization.rows import rows_of
 from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
 from mgehl.grid.events import linear_solve
 from mgehl.multigrid.options import OF_A_RUN
@@ -82,7 +81,7 @@ class RigidGapFluid:
         """One Newton step of pressures and of contents."""
         space, film = self._solver.space, state.status == LUBRICATED
         feeding = self._problem.feeding(state.status)
-        self._solver.linearise(evaluation, rows_of(state.status, True, feeding))
+        self._solver.linearise(evaluation, self._problem.rows(state.status))
         space.write(self._rhs, -residual, 0.0)
         with linear_solve():
             self._ksp.solve(self._rhs, self._correction)

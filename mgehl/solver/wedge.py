@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mgehl.discretization.rows import GAP, PRESSURE
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.multigrid.assembled import AssembledSolver
 from mgehl.solver.outcome import Outcome
@@ -25,6 +26,16 @@ class WedgeProblem(Problem):
         gap = bearing.gap(grid.X) + bearing.recess(grid.X, grid.Y, grid.mesh.dX, grid.mesh.dY)
         H = np.where(solid, 0.0, np.broadcast_to(gap, grid.shape))
         return State(np.where(solid, 0.0, bearing.ambient), 0.0, H, status.astype(np.int8))
+
+    def feeding(self, status):
+        """All cavities: no linear system takes a convolution, and the plate may move against the axis."""
+        return status == CAVITATED
+
+    def rows(self, status):
+        """As of any fluid; no pressure moves the gap of solid nodes, and theirs is given."""
+        rows = super().rows(status)
+        rows[rows == GAP] = PRESSURE
+        return rows
 
     def residual(self, evaluation, status):
         """As of any fluid; at the pad's edges the pressure is the ambient one."""

@@ -36,8 +36,9 @@ class State:
         how = {"filling": filling, "storage": storage}
         return Evaluation(P, H, self.status, self.mesh, self.contact, scheme or Scheme(), **how)
 
-    def rows(self, rigid=False):
-        return rows_of(own(self.status), rigid)
+    @property
+    def rows(self):
+        return rows_of(own(self.status))
 
 
 LINES, NODES = 5, 8

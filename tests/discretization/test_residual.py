@@ -17,7 +17,6 @@ from mgehl.model.rheology import Eyring, Friction
 
 every_scheme = pytest.mark.parametrize("couette", SCHEMES)
 every_mean = pytest.mark.parametrize("mean", FACE_MOBILITIES)
-rigid_or_not = pytest.mark.parametrize("rigid", [False, True], ids=["elastic", "rigid"])
 AT_AN_ANGLE = (0.6, 0.8)
 along_and_at_an_angle = pytest.mark.parametrize("motion", [(1.0, 0.0), AT_AN_ANGLE])
 
@@ -36,12 +35,11 @@ def central_differences(function, x, d):
     return matrix
 
 
-def assert_linearised(state, scheme, rigid=False, storage=None):
+def assert_linearised(state, scheme, storage=None):
     """A and B hold every derivative of the residual, and nothing else."""
-    rows = state.rows(rigid)
-    linear = linearise(state.evaluation(scheme), rows, storage, rigid)
-    assert (linear.B is None) == rigid
-    for name, d, stencil in (("P", 1e-6, linear.A), ("H", 1e-7, linear.B))[: 1 if rigid else 2]:
+    rows = state.rows
+    linear = linearise(state.evaluation(scheme), rows, storage)
+    for name, d, stencil in (("P", 1e-6, linear.A), ("H", 1e-7, linear.B)):
 
         def function(changed, name=name):
             return residual(state.evaluation(scheme, storage=storage, **{name: changed}), rows)
@@ -74,8 +72,6 @@ OPTIONS = {
     "against": {"motion": (-1.0, 0.0)},
     "across": {"motion": (0.0, 1.0)},
     "unified": {"motion": (-0.6, -0.8), "contact_law": UnifiedEquations(0.1)},
-    "rigid": {"rigid": True},
-    "rigid, at an angle": {"rigid": True, "motion": AT_AN_ANGLE},
     "geometric share": {"face_mobility": "geometric", "mobility_share": 0.4},
     "harmonic share": {"face_mobility": "harmonic", "mobility_share": 0.4},
 }
@@ -84,9 +80,7 @@ OPTIONS = {
 @pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
 @every_scheme
 def test_linearisation_of_options_matches_central_differences(couette, options, mixed):
-    options = dict(options)
-    rigid = options.pop("rigid", False)
-    assert_linearised(mixed, Scheme(couette, **options), rigid)
+    assert_linearised(mixed, Scheme(couette, **options))
 
 
 LAYERS = {"motion": AT_AN_ANGLE, "contact_law": BoundaryFilm(0.1)}
@@ -106,7 +100,7 @@ def test_linearisation_by_contents_matches_central_differences(couette, mean, mo
     scheme, torn = Scheme(couette, mean, motion=motion), mixed.status == CAVITATED
     filling = np.random.default_rng(3).uniform(0.3, 0.9, torn.shape)
     storage = Storage.begun(mixed.evaluation(filling=np.full(torn.shape, 0.5)).fluid, 2.0)
-    rows = np.where(own(torn), FLOW, mixed.rows())
+    rows = np.where(own(torn), FLOW, mixed.rows)
     linear = linearise(mixed.evaluation(scheme, filling=filling), rows, storage)
     fields = {"P": mixed.P, "H": mixed.H, "filling": filling}
 
@@ -126,31 +120,28 @@ def test_linearisation_by_contents_matches_central_differences(couette, mean, mo
 
 
 def test_rows_of_a_given_pressure_or_gap_couple_to_nothing_else(mixed):
-    for rigid in (False, True):
-        rows = mixed.rows(rigid)
-        linear = linearise(mixed.evaluation(), rows, rigid=rigid)
-        for stencil, kind in ((linear.A, PRESSURE),) if rigid else ((linear.A, PRESSURE), (linear.B, GAP)):
-            assert (stencil[0][rows == kind] == -1.0 / mixed.mesh.dX).all()
-            assert not stencil[0][(rows != FLOW) & (rows != kind)].any()
-            assert not stencil[1:][:, rows != FLOW].any()
+    rows = mixed.rows
+    linear = linearise(mixed.evaluation(), rows)
+    for stencil, kind in ((linear.A, PRESSURE), (linear.B, GAP)):
+        assert (stencil[0][rows == kind] == -1.0 / mixed.mesh.dX).all()
+        assert not stencil[0][(rows != FLOW) & (rows != kind)].any()
+        assert not stencil[1:][:, rows != FLOW].any()
 
 
-@rigid_or_not
 @every_mean
 @pytest.mark.parametrize("motion", [(1.0, 0.0), AT_AN_ANGLE], ids=["along x", "at an angle"])
-def test_a_few_lines_at_a_time_give_what_all_at_once_do(motion, mean, rigid, mixed, monkeypatch):
+def test_a_few_lines_at_a_time_give_what_all_at_once_do(motion, mean, mixed, monkeypatch):
     """To the last digit, in the arrays of a linearisation that is not needed any more, too."""
     scheme = Scheme("2B", mean, motion=motion)
-    evaluation, rows = mixed.evaluation(scheme), mixed.rows(rigid)
-    whole = linearise(evaluation, rows, rigid=rigid)
+    evaluation, rows = mixed.evaluation(scheme), mixed.rows
+    whole = linearise(evaluation, rows)
     monkeypatch.setattr("mgehl.discretization.axes.FEW", rows.shape[1])
     assert len(few_lines(rows)) == len(rows) > 2
-    room = linearise(evaluation, np.full_like(rows, PRESSURE), rigid=rigid)
-    parts = linearise(evaluation, rows, rigid=rigid, room=room)
+    room = linearise(evaluation, np.full_like(rows, PRESSURE))
+    parts = linearise(evaluation, rows, room=room)
     assert parts.A is room.A and parts.B is room.B
     np.testing.assert_array_equal(parts.A, whole.A)
-    if not rigid:
-        np.testing.assert_array_equal(parts.B, whole.B)
+    np.testing.assert_array_equal(parts.B, whole.B)
 
 
 @pytest.fixture(params=[0.3, 40.0, "each its own"])
@@ -167,6 +158,5 @@ def storage(state, rate):
     return Storage.begun(state.evaluation(P=0.9 * state.P, H=1.1 * state.H).fluid, rate)
 
 
-@rigid_or_not
-def test_linearisation_of_a_time_step_matches_central_differences(state, storage, rigid):
-    assert_linearised(state, Scheme("2B", motion=AT_AN_ANGLE), rigid, storage)
+def test_linearisation_of_a_time_step_matches_central_differences(state, storage):
+    assert_linearised(state, Scheme("2B", motion=AT_AN_ANGLE), storage)

@@ -29,7 +29,7 @@ def laplacian(transfer):
         A = np.ones((len(CROSS), *transfer.coarse.shape))
         A[0] = -4.0
         linearisation = Linearisation(CROSS, A, None, None)
-        rows = rows_of(status, rigid=True)
+        rows = rows_of(status)
         end_halfway(linearisation, transfer.inject(rows), transfer, rows, status)
         return linearisation.A
 
