@@ -103,7 +103,7 @@ class Newton(PythonSnes):
         self._in_turn = how is SetsChange.IN_TURN
         evaluation, moved = problem.evaluate(state), 0
         if how is SetsChange.AT_REST:
-            moved = relax_cavitation_set(problem, state, evaluation)
+            moved = relax_cavitation_set(problem, state)
         changes.cavitated += moved
         if moved:
             evaluation = problem.evaluate(state)

@@ -69,6 +69,16 @@ def test_a_spoiled_set_is_restored(film, spoil):
     np.testing.assert_allclose(state.P, solved.P, rtol=0.0, atol=1e-4)
 
 
+def test_a_relaxation_that_leaves_more_of_the_residual_is_not_taken(film, monkeypatch):
+    monkeypatch.setattr("mgehl.solver.cavitation.GAINS", 1e-9)
+    state = film.outcome.state.copy()
+    torn_rim(film, state)
+    spoiled = state.copy()
+    assert relax(film.problem, state) == 0
+    np.testing.assert_array_equal(state.P, spoiled.P)
+    np.testing.assert_array_equal(state.status, spoiled.status)
+
+
 def test_cavities_that_feed_a_film_hold_what_flows_in(film):
     """Film is torn in the inlet, where the flow fills it again, and nothing is left of what was taken."""
     problem, solved = film.problem, film.outcome.state
