@@ -288,6 +288,20 @@ def test_lambda_is_that_of_the_end(course):
         assert after.mixed.lambda_ratio == pytest.approx(ratio)
 
 
+def test_lambda_and_valleys_are_those_of_the_heights_of_the_end():
+    """They were those of the beginning: next to no roughness where a dent comes in."""
+    dent = {"surface.kind": "dent", "surface.amplitude": 1e-7, "surface.width": 6e-5}
+    there = {"surface.x": 0.4 * UNIT * BALL["motion.speed"] - 1.8e-4}
+    moves = {"surface.x": -1.8e-4, "surface.body": "body_1", "motion.slide_to_roll": 0.0}
+    found = solved(dent | moves, time__end=0.4 * UNIT)
+    contact, mixed = contact_from(mgehl.load(None, BALL | dent | there)), found.summary.mixed
+    assert mixed.Sq_nm == pytest.approx(1e9 * contact.roughness, rel=1e-3) and mixed.Sq_nm > 3.0
+    assert mixed.lambda_ratio == pytest.approx(contact.lambda_ratio, rel=1e-3)
+    heights, inside = found.fields["heights"], np.hypot(*np.meshgrid(found.mesh.X, found.mesh.Y)) <= 1.0
+    valleys = inside & (heights - contact.mean_height < -contact.roughness)
+    assert mixed.valley_film_nm == pytest.approx(1e9 * found.film[valleys].mean())
+
+
 def test_heat_thins_the_film_by_the_speed_of_the_instant(course):
     """From 8 to 2 m/s: what the film loses at the end is what it loses at 2 m/s, on finer grids nearer."""
     line = {

@@ -82,7 +82,7 @@ class Nodes:
 def mixed_result(problem, state):
     """The `MixedResult` of a state; None of smooth bodies (collective). Rank 0 has all nodes and tells the
     others: whatever the number of ranks the sums are the same."""
-    grid, contact = problem.grid, problem.contact
+    grid, contact = problem.grid, problem.surfaced
     if contact.surface is None:
         return None
     heights = problem.heights - problem.hertz.contact.mean_height

@@ -77,7 +77,7 @@ def summarise_in_time(problem, outcome, rows, scene, tolerance, making):
         failed = replace(result, converged=False, settled=False, reason=outcome.reason, mass=None)
         return replace(failed, error=OF_AN_INSTANT)
     largest_node = _largest_node(problem, outcome.state)
-    end = scene.instant(problem.contact, rows[-1]["time_s"])
+    end = scene.instant(problem.surfaced, rows[-1]["time_s"])
     time = time_result(rows, scene, making.work, largest_node)
     off = max(time.largest_closure, largest_node)
     settled, reason = result.settled and off <= CLOSED_IN_TIME, outcome.reason

@@ -143,7 +143,8 @@ class Problem:
 
 
 class ContactProblem(Problem):
-    """Gap, residual and load balance of a loaded contact on one grid."""
+    """Gap, residual and load balance of a loaded contact on one grid. `surfaced` is the contact with its
+    surfaces as they are now, under the load of the beginning."""
 
     load_share = 1.0
     """Load of the instant, over that of the contact."""
@@ -153,16 +154,16 @@ class ContactProblem(Problem):
         self.deflection = deflection
         self.K00 = influence_coefficients(grid.mesh, contact.kernel, 0, 1)[0, 0]
         self._centre = weights_at(grid.mesh, 0.0, 0.0)[grid.first : grid.last]
-        self._undeformed, self._surface = contact.undeformed_gap(grid.X, grid.Y), contact.surface
+        self._undeformed, self.surfaced = contact.undeformed_gap(grid.X, grid.Y), contact
         self._load_within = contact.load_within(grid.mesh)
 
     @property
     def heights(self):
         """Heights at the local nodes in m, as the surfaces are now: (lines, nx); None of smooth bodies."""
-        grid, contact = self.grid, self.contact
-        if self._surface is None:
+        grid, contact = self.grid, self.surfaced
+        if contact.surface is None:
             return None
-        found = self._surface.height(grid.X * contact.x_scale, grid.Y * contact.y_scale)
+        found = contact.surface.height(grid.X * contact.x_scale, grid.Y * contact.y_scale)
         return np.array(np.broadcast_to(found, grid.shape))
 
     def turn_to(self, surfaces, there):
@@ -170,16 +171,16 @@ class ContactProblem(Problem):
         contact = self.contact
         friction = contact.friction.slowed(there.speed / contact.speed)
         self.flowing = replace(contact.turned(there.angle), lubricant=there.lubricant, friction=friction)
-        if surfaces.surface is not self._surface:
+        if surfaces.surface is not self.surfaced.surface:
             self._undeformed = surfaces.undeformed_gap(self.grid.X, self.grid.Y)
-            self._surface = surfaces.surface
+            self.surfaced = surfaces
         self.load_share = there.load / contact.load
         self._load_within = contact.load_within(self.grid.mesh, there)
 
     @property
     def hertz(self):
-        """The `HertzUnder` of the load as it is now."""
-        return self.contact.hertz_under(self.load_share)
+        """The `HertzUnder` of load and surfaces as they are now."""
+        return self.surfaced.hertz_under(self.load_share)
 
     def gap(self, P, H0):
         """H of [Liu eq. 48] under the pressure P; one convolution."""
