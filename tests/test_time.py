@@ -297,7 +297,10 @@ def test_lambda_and_valleys_are_those_of_the_heights_of_the_end():
     contact, mixed = contact_from(mgehl.load(None, BALL | dent | there)), found.summary.mixed
     assert mixed.Sq_nm == pytest.approx(1e9 * contact.roughness, rel=1e-3) and mixed.Sq_nm > 3.0
     assert mixed.lambda_ratio == pytest.approx(contact.lambda_ratio, rel=1e-3)
-    heights, inside = found.fields["heights"], np.hypot(*np.meshgrid(found.mesh.X, found.mesh.Y)) <= 1.0
+    heights, inside = (
+        found.fields.named["heights"],
+        np.hypot(*np.meshgrid(found.mesh.X, found.mesh.Y)) <= 1.0,
+    )
     valleys = inside & (heights - contact.mean_height < -contact.roughness)
     assert mixed.valley_film_nm == pytest.approx(1e9 * found.film[valleys].mean())
 

@@ -12,6 +12,7 @@ example: mgehl sweep --set grid.nodes=65 --set solver.start=film --over motion.s
 """
 
 import re
+from contextlib import suppress
 from pathlib import Path
 from shlex import quote
 
@@ -40,9 +41,10 @@ def execute(options, comm):
     from mgehl.studies.sweep import swept
 
     file = chosen_config(options.config, options.settings)
+    over = [_split(word) for word in options.over]
     with naming_file(file, options.settings):
-        config = load_config(file, options.settings)
-    axes = [axis_of(config, *_split(word)) for word in options.over]
+        config = _to_be_swept(file, options.settings, over)
+    axes = [axis_of(config, *each) for each in over]
     points = points_of(config, axes, options.both_ways)
     directory = Path(options.out or Path("runs") / f"sweep-{file.stem}")
     if comm.bcast(directory.exists()) and not options.resume:
@@ -53,6 +55,16 @@ def execute(options, comm):
     with StopWhenTold(f"go on with --resume, --out {quote(str(directory))}") as stop:
         study = swept(directory, comm, axes, points, Watch(stop=stop), not options.quiet, asked)
     return NOT_CONVERGED if study.failures else CONVERGED
+
+
+def _to_be_swept(file, settings, over):
+    """The configuration of a file with the first values of what is swept, which it may need to be one;
+    without them where they are no values, which `axis_of` tells."""
+    from mgehl.studies.points import first_of
+
+    with suppress(ConfigError):
+        return load_config(file, [*settings, *(f"{key}={first_of(values)}" for key, values in over)])
+    return load_config(file, settings)
 
 
 def _say_unusual(points):

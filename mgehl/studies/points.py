@@ -59,6 +59,14 @@ def axis_of(config, key, values):
     return Axis(key, tuple(found))
 
 
+def first_of(text):
+    """The first value that a text names, as `--set` takes it; the text where it names none."""
+    if match := _RANGE.fullmatch(text.strip()):
+        return f"{match[2]} {match[4]}".strip()
+    items = [_ITEM.fullmatch(item) for item in text.split(",")]
+    return f"{items[0][1]} {items[0][2] or items[-1][2]}".strip() if all(items) else text
+
+
 def _values(config, key, text):
     """The values that a text names."""
     told = f'--over {key}="{text}"'

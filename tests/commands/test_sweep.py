@@ -1,4 +1,5 @@
 import json
+from types import SimpleNamespace
 
 import h5netcdf
 import numpy as np
@@ -16,6 +17,7 @@ from mgehl.studies.points import axis_of, points_of
 
 FILM = ["--set", "grid.nodes=65", "--set", "solver.error=false", "--set", "solver.start=film"]
 SPEEDS = "motion.speed=0.5..2 m/s:3"
+STUDY = SimpleNamespace(failures=0)
 SWEEP = ["sweep", *FILM, "--quiet", "--over", SPEEDS, "--out"]
 
 
@@ -55,6 +57,20 @@ def test_a_point_from_its_neighbours_is_the_one_from_nothing(film):
     for point, speed in enumerate((0.5, 1.25, 2.0)):
         cold = mgehl.solve(config.with_({"motion.speed": speed}), MPI.COMM_SELF).result
         assert array(film, "central_film_nm")[point] == pytest.approx(cold.central_film_nm, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "settings, over",
+    [(["surface.kind=waviness", "surface.wavelength_x=100 um"], ["surface.amplitude=10..20 nm:2"]),
+     (["lubricant.oil=M100"], ["lubricant.temperature=40,60 degC"]), ([], ["moes.M=20,50", "moes.L=5,10"])],
+)  # fmt: skip
+def test_what_is_swept_need_not_be_given_besides(settings, over, monkeypatch, tmp_path):
+    points = []
+    monkeypatch.setattr("mgehl.studies.sweep.swept", lambda *args: points.extend(args[3]) or STUDY)
+    words = [each for setting in settings for each in ("--set", setting)]
+    words += [each for axis in over for each in ("--over", axis)]
+    assert main(["sweep", *words, "--out", str(tmp_path / "s")]) == 0
+    assert len(points) == 2 ** len(over)
 
 
 def test_killed_and_resumed_it_has_the_same_table(film, tmp_path, monkeypatch):

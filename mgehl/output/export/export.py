@@ -11,12 +11,9 @@ from mgehl.discretization import status
 from mgehl.errors import OutputError, UserError
 from mgehl.output.export.netcdf import write_netcdf
 from mgehl.output.export.paraview import write_pvd, write_vts
-from mgehl.output.files import finite, further_fields, plain_result
+from mgehl.output.files import FURTHER, finite, further_fields, plain_result
 from mgehl.output.laws import portable
 from mgehl.output.whole_file import whole_file, writing
-
-UNITS = {"fluid_pressure": "fluid_pressure_Pa", "heights": "heights_m"}
-"""Columns of `further_fields` with a unit in their names."""
 
 
 def write_npz(path, solution):
@@ -47,11 +44,16 @@ def write_csv(path, solution):
         "film_m": solution.film,
         "status": names,
     }
-    columns |= {UNITS.get(name, name): values for name, values in further_fields(solution).items()}
+    columns |= {_with_unit(name): values for name, values in further_fields(solution).items()}
     with path.open("w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(columns)
         writer.writerows(zip(*(each.ravel().tolist() for each in columns.values()), strict=True))
+
+
+def _with_unit(name):
+    unit, _ = FURTHER[name]
+    return name if unit == "1" else f"{name}_{unit}"
 
 
 WRITERS = {"vts": write_vts, "nc": write_netcdf, "npz": write_npz, "csv": write_csv}
