@@ -101,13 +101,9 @@ class Newton(PythonSnes):
         problem, state, changes = self._problem, self._position.state, self._position.changes
         how = how_sets_change(self._position, self._settings.by_film)
         self._in_turn = how is SetsChange.IN_TURN
-        evaluation, moved = problem.evaluate(state), 0
         if how is SetsChange.AT_REST:
-            moved = relax_cavitation_set(problem, state)
-        changes.cavitated += moved
-        if moved:
-            evaluation = problem.evaluate(state)
-        self._evaluation = problem.march_contents(state, evaluation)
+            changes.cavitated += relax_cavitation_set(problem, state)
+        self._evaluation = problem.march_contents(state, problem.evaluate(state))
         if self._partition.fill(state, changes, self._in_turn):
             self._partition.fit(state)
             self._evaluation = problem.evaluate(state)

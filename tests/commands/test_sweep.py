@@ -67,8 +67,7 @@ def test_a_point_from_its_neighbours_is_the_one_from_nothing(film):
 def test_what_is_swept_need_not_be_given_besides(settings, over, monkeypatch, tmp_path):
     points = []
     monkeypatch.setattr("mgehl.studies.sweep.swept", lambda *args: points.extend(args[3]) or STUDY)
-    words = [each for setting in settings for each in ("--set", setting)]
-    words += [each for axis in over for each in ("--over", axis)]
+    words = [*(f"--set={each}" for each in settings), *(f"--over={each}" for each in over)]
     assert main(["sweep", *words, "--out", str(tmp_path / "s")]) == 0
     assert len(points) == 2 ** len(over)
 
