@@ -38,8 +38,8 @@ end before pressures have spread across the lines."""
 
 GAINS = 0.25
 """Part of the residual that a relaxation may leave; with 1 a quarter more work. Beside the nodes that it
-brings to rest others may be left with ten times as much, and the next step throws the gap: thin films walked
-for ever. Without any relaxation balls without layers are lost on 257 nodes."""
+brings to rest others may be left with ten times as much, and the next step throws the gap: thin films
+walked for ever. Without any relaxation balls without layers are lost on 257 nodes."""
 
 PASSES = 2
 """Set iterations on a line in each sweep; with 1 most take the same steps."""
