@@ -84,14 +84,16 @@ def check_start(start, case):
     if not hasattr(start, "config"):
         raise UserError(f"start: is of type {type(start).__name__}; must be a Solution or a run directory")
     other, kind = start.config.contact.kind, case.config.contact.kind
-    if other != kind or not start.contact.is_loaded:
+    if other != kind:
         raise UserError(f"a {other} is no start for a {kind}")
+    if not start.contact.is_loaded:
+        raise UserError(f"a {kind} takes no start")
     if any(start.path):
         case.check_ways(start.path)
     if case.config.is_in_time and start.fields and (off := _other_heights(start, case)) > OTHER_HEIGHTS:
         raise UserError(
             f"start: its heights differ by {100.0 * off:.3g} % from those that this run in time begins "
-            "with: films go on between the same heights"
+            "with: films go on between the same heights, moved by the same motion.slide_to_roll"
         )
 
 
