@@ -52,11 +52,11 @@ def column(solution, name):
 
 
 def test_a_steady_state_stays():
-    """To the last digits, at one convolution a step, in steps of any length."""
+    """To the last digits, in steps of any length, each with what its beginning's residual asks at the most."""
     steady, after = solved(), solved(time__end=6.0 * UNIT)
     assert after.summary.converged
     assert after.fields.H == pytest.approx(steady.fields.H, abs=1e-8)
-    assert np.diff(column(after, "convolutions")).max() < 1.1
+    assert np.diff(column(after, "convolutions")).max() < 5.0
     assert np.ptp(column(after, "step_s")) > 0.0
 
 
