@@ -52,7 +52,7 @@ def column(solution, name):
 
 
 def test_a_steady_state_stays():
-    """To the last digits, in steps of any length, each with what its beginning's residual asks at the most."""
+    """To the last digits, in steps of any length, each with what the residual of its beginning asks."""
     steady, after = solved(), solved(time__end=6.0 * UNIT)
     assert after.summary.converged
     assert after.fields.H == pytest.approx(steady.fields.H, abs=1e-8)
