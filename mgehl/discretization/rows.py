@@ -1,8 +1,10 @@
 """Which equation each node has at the moment: the kinds of rows of the nonlinear residual.
 
-FLOW      net inflow/(dX dY) = 0   film, cavity that feeds it     [Liu eq. 35]
-PRESSURE  (P_given - P)/dX = 0     boundary, other cavity
-GAP       (h_b - H)/dX = 0         contact; h_b is the gap that its law keeps, mostly zero
+    FLOW      net inflow/(dX dY) = 0   film, cavity that feeds it     [Liu eq. 35]
+    PRESSURE  (P_given - P)/dX = 0     boundary, other cavity
+    GAP       (h_b - H)/dX = 0         contact; h_b is the gap that its law keeps, mostly zero
+
+Solids of a wedge, whose gap no pressure moves, have a given pressure (`solver.wedge`).
 """
 
 import numpy as np

@@ -57,9 +57,8 @@ def relax_cavitation_set(problem, state):
     moved = _relax(problem, relaxed)
     if not moved or _residual_of(problem, relaxed) > GAINS * _residual_of(problem, state):
         return 0
-    for ours, found in ((state.P, relaxed.P), (state.p, relaxed.p), (state.filling, relaxed.filling)):
-        ours[:] = found
-    state.status[:] = relaxed.status
+    for name in ("P", "p", "filling", "status"):
+        getattr(state, name)[:] = getattr(relaxed, name)
     return moved
 
 

@@ -127,10 +127,10 @@ def interpolate(transfer, problem, coarse):
 def planned_solves(meshes, contact, settings):
     """(Level, `LevelSolve`, its `SolverSettings`) of what is solved on which of the `meshes`, coarsest
     first, at speeds that coarse grids resolve and that do not lift the bodies off each other."""
-    before = None
+    before, gently = None, settings.scheme.contact_law.closes_faces
     for level, speed in _speeds_on_levels(meshes, contact, settings):
         finest = level == len(meshes) - 1
-        for each in _on_the_way(before, speed) if settings.scheme.contact_law.closes_faces else ():
+        for each in _on_the_way(before, speed) if gently else []:
             yield level, LevelSolve(meshes[level].nx, each, finest), settings.in_passing()
         yield level, LevelSolve(meshes[level].nx, speed, finest), settings if finest else settings.roughly()
         before = speed
