@@ -25,10 +25,6 @@ FLAT = 0.1
 """Largest gap, and largest overlap, that the dry guess may leave, over the formula's film that is laid on
 it: a larger overlap would make contact where there is none."""
 
-MOST_SLOWER = 2.0
-"""Ratio of speeds that contact which shuts its faces is led over at once: from a film 2.3 times as fast the
-first step closes constrictions, and what has touched stays long: 14 times the work, or no end."""
-
 ROUNDING = 1e-9
 """So that a ratio that is the most allowed counts as that."""
 
@@ -127,28 +123,25 @@ def interpolate(transfer, problem, coarse):
 def planned_solves(meshes, contact, settings):
     """(Level, `LevelSolve`, its `SolverSettings`) of what is solved on which of the `meshes`, coarsest
     first, at speeds that coarse grids resolve and that do not lift the bodies off each other."""
-    before, gently = None, settings.scheme.contact_law.closes_faces
-    for level, speed in _speeds_on_levels(meshes, contact, settings):
+    before, recipe = None, recipe_of(settings, contact)
+    for level, speed in _speeds_on_levels(meshes, contact, settings, recipe.on_coarse_grids):
         finest = level == len(meshes) - 1
-        for each in _on_the_way(before, speed) if gently else []:
+        for each in _on_the_way(before or speed, speed, recipe.most_slower):
             yield level, LevelSolve(meshes[level].nx, each, finest), settings.in_passing()
         yield level, LevelSolve(meshes[level].nx, speed, finest), settings if finest else settings.roughly()
         before = speed
 
 
-def _speeds_on_levels(meshes, contact, settings):
+def _speeds_on_levels(meshes, contact, settings, on_coarse_grids):
     """(Level, speed) to be solved on each level that is."""
-    if recipe_of(settings, contact).on_coarse_grids:
-        for level, mesh in enumerate(meshes[:-1]):
-            speed = contact.matched_speed(mesh, settings.inlet_cells)
-            if mesh.nx >= settings.first_nodes and not contact.at_speed(speed).hardly_yields:
-                yield level, speed
+    for level, mesh in enumerate(meshes[:-1] if on_coarse_grids else []):
+        speed = contact.matched_speed(mesh, settings.inlet_cells)
+        if mesh.nx >= settings.first_nodes and not contact.at_speed(speed).hardly_yields:
+            yield level, speed
     yield len(meshes) - 1, contact.speed
 
 
-def _on_the_way(first, last):
-    """Speeds between two, in equal ratios of at most `MOST_SLOWER`; none after a `first` of None."""
-    if first is None:
-        return []
-    steps = ceil(log(first / last) / log(MOST_SLOWER) - ROUNDING)
+def _on_the_way(first, last, most_slower):
+    """Speeds between two, in equal ratios of at most `most_slower`."""
+    steps = ceil(log(first / last) / log(most_slower) - ROUNDING) if first > last else 1
     return [first * (last / first) ** (step / steps) for step in range(1, steps)]

@@ -1,6 +1,7 @@
 """A recipe in words, a choice each, as `mgehl check` prints it; in plain values, as result.json has it."""
 
 from dataclasses import asdict
+from math import isfinite
 
 from mgehl.multigrid.cycle import DIRECT
 from mgehl.multigrid.smoother_choice import smoother_of
@@ -49,13 +50,19 @@ def recipe_words(recipe, is_line, at_rest=False):
     mean = f"{recipe.scheme.face_mobility} mean of mobilities"
     yield f"Couette flow by {recipe.scheme.couette}{limited}; {mean}"
     yield f"contact {law.words}"
-    grids = "coarse grids first" if recipe.on_coarse_grids else "on the finest grid alone"
+    grids = f"coarse grids first{_slower(recipe)}" if recipe.on_coarse_grids else "on the finest grid alone"
     yield f"begins {AT_REST if at_rest else f'{BEGINS[recipe.begins]}, {grids}'}"
     if recipe.or_otherwise:
         yield "where that fails, from the dry contact, then from a film that covers the peaks, slowed down"
     yield _steps(newton)
     memory = "; corrections of one system are remembered for the next" if recipe.cycle.rough else ""
     yield f"smoother: {_smoother(recipe, is_line)}{memory}"
+
+
+def _slower(recipe):
+    if not isfinite(recipe.most_slower):
+        return ""
+    return f"; the speed falls by at most a factor of {recipe.most_slower:g} at once"
 
 
 def _smoother(recipe, is_line):
@@ -86,6 +93,7 @@ def plain(recipe):
         "contact": recipe.scheme.contact_law.words,
         "begins": recipe.begins,
         "on_coarse_grids": recipe.on_coarse_grids,
+        "most_slower": recipe.most_slower if isfinite(recipe.most_slower) else None,
         "or_otherwise": recipe.or_otherwise,
         **newton,
         "smoother": "in valleys" if recipe.cycle.in_valleys else "by lines",

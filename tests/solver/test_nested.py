@@ -12,7 +12,8 @@ from mgehl.discretization.status import CONTACT
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.point import LOAD
 from mgehl.solver.inequality import check_pressure_inequality
-from mgehl.solver.nested import MOST_SLOWER, planned_solves
+from mgehl.solver.nested import planned_solves
+from mgehl.solver.recipe import MOST_SLOWER
 from mgehl.solver.settings import SolverSettings
 
 MOES_DOMAIN = {"x": (-4.5, 1.5), "y": (-3.0, 3.0)}
