@@ -191,8 +191,13 @@ class _LoadedSolve:
         problem, outcome = march(case.scene, task, diary, start and (start, parts.frame))
         making = self._making(len(monitor.rows))
         result = summarise_in_time(problem, outcome, monitor.rows, case.scene, self._tolerance, making)
-        result = replace(result, recipe=self._recipe(outcome))
-        return replace(self._solution(problem, outcome, result), frames=diary.frames)
+        friction, maps = None, None
+        if monitor.rows:
+            now = problem.moving(case.scene.speed.value(monitor.rows[-1]["time_s"]))
+            friction, maps = friction_result(now, outcome.state, steady=False)
+            friction = with_moments(friction, arms(case.config))
+        result = replace(result, friction=friction, recipe=self._recipe(outcome))
+        return replace(self._solution(problem, outcome, result, maps), frames=diary.frames)
 
     def without_a_fluid(self):
         """Its `Solution` as a dry contact."""

@@ -74,6 +74,21 @@ def test_a_film_that_shear_thins_stays_thin():
     after = solved(**THINNED, time__end=1.0 * UNIT)
     assert thin.summary.central_film_nm < 0.98 * thick.summary.central_film_nm
     assert after.fields.H == pytest.approx(thin.fields.H, abs=1e-8)
+    one, other = (vars(each.summary.friction) for each in (after, thin))
+    for name in ("coefficient", "film_coefficient", "rolling_N", "force_1_N", "power_loss_W"):
+        assert one[name] == pytest.approx(other[name], rel=1e-6) != 0.0
+    assert after.fields.shear == pytest.approx(thin.fields.shear, rel=1e-5)
+
+
+def test_friction_at_the_end_is_that_of_its_speed_and_load(course):
+    """A run shorter than a passage had none in its result."""
+    speed, load = course((0.0, 0.09), (0.1 * UNIT, 0.03)), 15.0
+    slower = solved(**THINNED, motion__speed=speed, time__end=0.1 * UNIT)
+    (found, row), sliding = (slower.summary.friction, slower.rows[-1]), 0.5 * 0.03
+    assert found.coefficient == pytest.approx(row["friction"], rel=1e-5)
+    assert found.sliding_speed == pytest.approx(sliding)
+    power = found.coefficient * load * sliding - 2.0 * 0.03 * found.rolling_N
+    assert found.power_loss_W == pytest.approx(power)
 
 
 def test_a_course_of_the_speed_does_not_end_the_thinning(course):
@@ -205,6 +220,9 @@ def test_rolling_drags_against_a_reversed_motion_as_against_one_that_is_turned(t
         mgehl.solve(mgehl.load(None, BALL | wide | course), start=start) for course in courses
     )
     assert reversed_.rows[-1]["rolling"] == pytest.approx(turned.rows[-1]["rolling"], rel=0.01)
+    assert reversed_.summary.friction.rolling_coefficient == pytest.approx(
+        turned.rows[-1]["rolling"], rel=0.01
+    )
     assert reversed_.motion == pytest.approx(turned.motion, abs=1e-12) == (-1.0, 0.0)
 
 

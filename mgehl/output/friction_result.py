@@ -38,7 +38,8 @@ class FrictionResult:
     rolling_coefficient: float
     """What drags each body against the motion, over the load: by the film in the domain."""
     rolling_beyond: float
-    """What drags up to a radius of curvature away between rigid bodies full of oil: in no force."""
+    """What drags up to a radius of curvature away between rigid bodies full of oil: in no force, and
+    nothing of runs in time."""
     force_1_N: float
     """On body 1, of speed u (1 + S/2): positive along the motion."""
     force_2_N: float
@@ -49,7 +50,7 @@ class FrictionResult:
     """Of sliding and rolling, of both bodies."""
     largest_shear_MPa: float
     temperatures: Temperatures | None = None
-    """None where [heat] says nothing of the bodies, and of a band of heat on a body at rest."""
+    """None where [heat] says nothing of the bodies, of a band of heat on a body at rest, and in time."""
     per_metre: bool = False
     """Whether forces and power are those of a metre: of a line contact."""
     coefficient_band: float | None = None
@@ -76,25 +77,26 @@ TINY = 1e-300
 """No pressure at all: the film has no mean by it."""
 
 
-def friction_result(problem, state):
-    """The `FrictionResult` of a state, and maps (lines, nx) by their names in `Fields`: shear stress,
-    flash temperatures, as far as there are any (collective)."""
+def friction_result(problem, state, steady=True):
+    """The `FrictionResult` of a state, and maps (lines, nx) by their names in `Fields`: shear stress, and
+    of a `steady` state flash temperatures, as far as there are any (collective)."""
     contact, friction = problem.contact, problem.contact.friction
     shear, slides = shear_of(problem, state), friction.slide_to_roll
     speed, total, stress = contact.speed, shear.sliding_force, shear.stress
-    beyond = contact.drag_beyond(problem.grid.mesh, flows_out_whole(problem, state))
+    beyond = contact.drag_beyond(problem.grid.mesh, flows_out_whole(problem, state)) if steady else 0.0
+    load = problem.load_share * contact.load
     dragged = total if slides > 0.0 else -total
     sliding = friction.sliding_speed(speed)
-    rise = rise_of(problem, state, stress) if has_temperatures(contact) else None
+    rise = rise_of(problem, state, stress) if steady and has_temperatures(contact) else None
     result = FrictionResult(
         model=friction.rheology.name,
         slide_to_roll=slides,
         sliding_speed=slides * speed,
-        coefficient=total / contact.load,
-        film_coefficient=shear.film_force / contact.load,
-        solid_coefficient=shear.solid_force / contact.load,
-        rolling_coefficient=shear.rolling_force / contact.load,
-        rolling_beyond=beyond / contact.load,
+        coefficient=total / load,
+        film_coefficient=shear.film_force / load,
+        solid_coefficient=shear.solid_force / load,
+        rolling_coefficient=shear.rolling_force / load,
+        rolling_beyond=beyond / load,
         force_1_N=-dragged - shear.rolling_force,
         force_2_N=dragged - shear.rolling_force,
         rolling_N=-shear.rolling_force,

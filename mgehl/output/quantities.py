@@ -64,7 +64,10 @@ def _put_at(result, path, value):
     result[last] = value
 
 
-NO_MEANS = "moes_film", "mixed.loaded_gap_nm", "mixed.mean_film_nm", "contact.area_fraction"
+NO_MEANS = (
+    "moes_film", "mixed.loaded_gap_nm", "mixed.mean_film_nm", "contact.area_fraction",
+    "friction.film_coefficient", "friction.solid_coefficient", "friction.rolling_coefficient",
+)  # fmt: skip
 """Of the last instant alone: left out where means stand beside them."""
 
 PASSAGE, INSTANT = "a passage", "an instant"

@@ -6,8 +6,6 @@ contact of the present load, and of smooth bodies the mean surface (`Scene.passa
 what the means of the last two passages differ by; it has settled where that is little.
 """
 
-from copy import copy
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -110,14 +108,11 @@ def _gone(instant, standing, scene):
 
 def _resistance(instant, state, problem):
     """What resists the motion at an instant, over its load (collective)."""
-    contact, there = problem.contact, copy(problem)
-    there.contact = replace(contact.turned(problem.flowing.angle), speed=abs(instant.speed))
-    shear, load = shear_of(there, state), instant.load * contact.load
-    against = np.copysign(1.0, instant.speed)  # the contact's own direction is that of a positive speed
+    shear, load = shear_of(problem.moving(instant.speed), state), instant.load * problem.contact.load
     return {
         "friction": shear.sliding_force / load,
         "largest_shear_MPa": 1e-6 * problem.grid.max(shear.stress),
-        "rolling": against * shear.rolling_force / load,
+        "rolling": shear.rolling_force / load,
     }
 
 

@@ -1,5 +1,6 @@
 """The discrete problem on one grid and its state."""
 
+from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -48,6 +49,8 @@ class State(Kept):
 class Problem:
     """The fluid of a contact on one grid, in a gap that is given: `ContactProblem` has an elastic one."""
 
+    sense = 1.0
+    """1 of surfaces that move in the contact's direction, -1 against it."""
     storage = None
     """The `Storage` of the time step that is taken; None of what is steady."""
     K00 = 0.0
@@ -176,6 +179,14 @@ class ContactProblem(Problem):
             self.surfaced = surfaces
         self.load_share = there.load / contact.load
         self._load_within = contact.load_within(self.grid.mesh, there)
+
+    def moving(self, speed):
+        """The same problem, of the contact with the oil and the direction of now, at a `speed` in m/s,
+        negative against the direction."""
+        there = copy(self)
+        there.contact = replace(self.flowing, friction=self.contact.friction, speed=abs(speed))
+        there.sense = -1.0 if speed < 0.0 else 1.0
+        return there
 
     @property
     def hertz(self):

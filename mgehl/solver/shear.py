@@ -113,4 +113,4 @@ def rolling_force(problem, state):
         # Along Y a face belongs to the line behind it: no two ranks count it.
         total += part * scale / axis.cell * float((drag if axis.number else drag[: len(own(P))]).sum())
     unit = contact.cell_area(grid.mesh) * contact.film_scale * contact.pressure_scale
-    return 0.5 * unit * grid.sum(total)
+    return 0.5 * problem.sense * unit * grid.sum(total)
