@@ -9,6 +9,7 @@ from mgehl.output import surface
 from mgehl.output.resolution import RESOLVED_CELLS
 from mgehl.solver.beginning import NOR
 from mgehl.solver.recipe import TOUCHING
+from mgehl.solver.verification import LARGEST_EDGE_PRESSURE
 
 MOST = 3
 """Most pieces of advice that are given."""
@@ -65,7 +66,8 @@ def _tries(solution):
 
 
 def _of_domain(solution):
-    """A domain that cuts the contact: that of "auto", or a larger one where that has no more room."""
+    """A domain that cuts the contact: that of "auto", or a larger one where that has no more room. Of very
+    wide ellipses coarse cells alone may look so: the pressure beside the boundary falls with the cell."""
     edge, config = solution.result.edge, solution.config
     if not edge.cuts:
         if edge.too_few:
@@ -79,6 +81,8 @@ def _of_domain(solution):
            for name, (low, high) in ends.items()):  # fmt: skip
         keys = " and ".join(f'grid.{name} = "auto"' for name in names)
         yield f"{keys}: a domain that holds the contact and its inlet"
+    elif not edge.overlapping and edge.pressure_ratio < 2.0 * LARGEST_EDGE_PRESSURE:
+        yield f"grid.nodes = {2 * config.grid.nodes - 1}: smaller cells beside the boundary have less pressure"
     else:
         larger = {name: [round(LARGER * end, 2) for end in pair] for name, pair in ends.items()}
         keys = " and ".join(f"grid.{name} = {pair}" for name, pair in larger.items())
