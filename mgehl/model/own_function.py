@@ -81,6 +81,8 @@ class OwnFunction:
 
     def _shaped(self, shape, result):
         try:
+            if np.iscomplexobj(result):
+                raise self.error("must return real numbers, returns complex ones")
             return np.broadcast_to(np.asarray(result, dtype=float), shape)
         except (TypeError, ValueError):
             found = f"{type(result).__name__} of shape {np.shape(result)}"

@@ -82,7 +82,7 @@ def _of_domain(solution):
         keys = " and ".join(f'grid.{name} = "auto"' for name in names)
         yield f"{keys}: a domain that holds the contact and its inlet"
     elif not edge.overlapping and edge.pressure_ratio < 2.0 * LARGEST_EDGE_PRESSURE:
-        yield f"grid.nodes = {2 * config.grid.nodes - 1}: smaller cells beside the boundary have less pressure"
+        yield f"grid.nodes = {2 * config.grid.nodes - 1}: cells beside the boundary then have less pressure"
     else:
         larger = {name: [round(LARGER * end, 2) for end in pair] for name, pair in ends.items()}
         keys = " and ".join(f"grid.{name} = {pair}" for name, pair in larger.items())

@@ -185,8 +185,8 @@ def bar(axes, plane, image, ends, **options):
 
 
 def _contour(axes, plane, values, levels, **options):
-    """Lines of equal values of blocks; none where they are one line of blocks."""
-    if min(values.shape) > 1:
+    """Lines of equal values of blocks; none where blocks are one line, or lie on one side of them."""
+    if min(values.shape) > 1 and any(values.min() < level < values.max() for level in levels):
         return axes.contour(plane.blocks.X, plane.blocks.Y, values, levels, **options)
 
 
