@@ -48,10 +48,6 @@ SLENDER = 8.0
 """R_x/R_y from which on no formula is made for the contact. Solved films are 1.3, 1.4 and 1.5 times
 Nijenbanning's at 10, 20 and 34, and half and less of Hamrock and Dowson's."""
 
-MOST_CELLS = 2.0
-"""Cells that roughness may move in a step: waves of 80 um on 65 nodes have a mean gap of 155 nm with steps
-of one cell, 151 with 2.5, 215 with 5 and 351 with 10."""
-
 LEAST_CELLS = 0.25
 """Part of a cell below which shorter steps do harm: a film under a load and a speed that swing is 7 % off
 on 65 nodes with a sixth of a cell in a step, 2 % with two thirds."""
@@ -125,11 +121,12 @@ def _odd_steps(config, contact):
     fastest = max(map(abs, range_of(config, "motion.speed")))
     mesh = config.kind.mesh(config, contact)
     way = fastest * config.time.step * np.array(contact.motion)
-    cells = scene_of(config, contact).fastest(way, mesh)
-    if cells > MOST_CELLS:
+    scene = scene_of(config, contact)
+    cells, most = scene.fastest(way, mesh), scene.most_asked
+    if cells > most:
         yield (
-            f"time.step = {config.time.step:.4g} s: surfaces go up to {cells:.3g} cells in a step; waves "
-            f"need steps of {MOST_CELLS:g} and less"
+            f"time.step = {config.time.step:.4g} s: surfaces would go up to {cells:.3g} cells in a step; "
+            f"steps are cut to {most:g}"
         )
     if 0.0 < cells < LEAST_CELLS:
         yield (

@@ -14,7 +14,7 @@ from mgehl.model.hertz import hertz_pressure
 from mgehl.model.inlet import Inlet
 from mgehl.model.inlet_heat import InletHeat
 from mgehl.model.lubricant import DowsonHigginson
-from mgehl.model.on_bodies import NEXT_TO_NONE, OnBodies
+from mgehl.model.on_bodies import OnBodies
 
 RESOLVED_CELLS = 4.0
 """Cells in the inlet from which on the film does not change with the grid."""
@@ -73,7 +73,7 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
     def lambda_ratio(self):
         """Film of smooth bodies over the roughness, at rest 0; None where there is next to none."""
         rms = self.roughness
-        if rms <= NEXT_TO_NONE:
+        if not rms:
             return None
         return 0.0 if self.is_at_rest else self.expected_film / rms
 

@@ -8,7 +8,7 @@ import numpy as np
 from mgehl.model.surface.surface import JUST, step_of
 
 SAMPLES = 65
-"""Heights along each side from which the roughness is reckoned: the same whatever the grid."""
+"""Heights along each axis of the ellipse from which the roughness is reckoned, whatever the grid."""
 STEP = 1e-3
 """Part of the semi-axes over which slopes are taken."""
 NEXT_TO_NONE = 1e-18
@@ -32,8 +32,9 @@ class OnBodies:
 
     @property
     def roughness(self):
-        """Rms of the heights within the Hertz semi-axes, about their mean, in m; 0 of smooth bodies."""
-        return float(np.sqrt(np.mean(self.heights**2)))
+        """Rms of the heights within the Hertz ellipse, about their mean, in m; 0 of smooth bodies."""
+        rms = float(np.sqrt(np.mean(self.heights**2)))
+        return rms if rms > NEXT_TO_NONE else 0.0
 
     @property
     def skewness(self):
@@ -46,15 +47,11 @@ class OnBodies:
         """Rms slope of the surface where the heights are taken; 0 of smooth bodies."""
         if self.surface is None:
             return 0.0
-        x, y = self._places
         dx, dy = STEP * self.x_scale, STEP * self.y_scale
-        squares = [np.mean(self._rise(x + dx, x - dx, y, y) ** 2) / (2.0 * dx) ** 2]
+        squares = np.mean((self._sampled(dx, 0.0) - self._sampled(-dx, 0.0)) ** 2) / (2.0 * dx) ** 2
         if not self.is_plane:
-            squares.append(np.mean(self._rise(x, x, y + dy, y - dy) ** 2) / (2.0 * dy) ** 2)
-        return float(np.sqrt(sum(squares)))
-
-    def _rise(self, x, x_before, y, y_before):
-        return self.surface.height(x, y) - self.surface.height(x_before, y_before)
+            squares += np.mean((self._sampled(0.0, dy) - self._sampled(0.0, -dy)) ** 2) / (2.0 * dy) ** 2
+        return float(np.sqrt(squares))
 
     @property
     def is_rough(self):
@@ -63,27 +60,25 @@ class OnBodies:
 
     @property
     def mean_height(self):
-        """Mean of the heights within the Hertz semi-axes, in m; 0 of smooth bodies."""
+        """Mean of the heights within the Hertz ellipse, in m; 0 of smooth bodies."""
         return float(self._samples.mean())
 
     @property
     def heights(self):
-        """Samples of the heights within the Hertz semi-axes, about their mean, in m."""
+        """Samples of the heights within the Hertz ellipse, about their mean, in m, (n,)."""
         return self._samples - self._samples.mean()
 
     @cached_property
     def _samples(self):
-        if self.surface is None:
-            return np.zeros(1)
-        x, y = self._places
-        return np.broadcast_to(self.surface.height(x, y), (len(y), SAMPLES))
+        return np.zeros(1) if self.surface is None else self._sampled(0.0, 0.0)
 
-    @property
-    def _places(self):
-        """x (1, nx) and y (ny, 1) of the samples in m."""
-        side = np.linspace(-1.0, 1.0, SAMPLES)
-        across = np.zeros(1) if self.is_plane else side
-        return side[None, :] * self.x_scale, across[:, None] * self.y_scale
+    def _sampled(self, dx, dy):
+        """The heights so far, in m, beside places within the Hertz ellipse."""
+        X = np.linspace(-1.0, 1.0, SAMPLES)[None, :]
+        Y = np.zeros((1, 1)) if self.is_plane else X.T
+        heights = self.surface.height(X * self.x_scale + dx, Y * self.y_scale + dy)
+        inside = X**2 + Y**2 <= 1.0
+        return np.broadcast_to(heights, inside.shape)[inside]
 
     def shortest_wave(self, mesh):
         """Shortest wavelength of the surface in m, as seen on a mesh within the Hertz semi-axes."""

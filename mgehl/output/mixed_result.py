@@ -118,7 +118,7 @@ def measured(contact, mesh, nodes, kept=0.0, load_share=1.0):
         largest_patch_m2=float(max(sizes, default=0) * square_metres),
         mean_film_nm=_of_some(np.mean, nm[film]),
         minimum_film_nm=_of_some(np.min, nm[film]),
-        valley_film_nm=_of_some(np.mean, nm[film & (nodes.heights < -Sq)]),
+        valley_film_nm=_of_some(np.mean, nm[film & (nodes.heights < -Sq) & (Sq > 0.0)]),
         torn_share=float(np.mean(nodes.status[inside] == CAVITATED)),
         per_metre=mesh.is_line,
         mean_gap_nm=unit_nm * mean_gap,

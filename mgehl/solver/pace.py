@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import inf, sqrt
+from math import ceil, inf, sqrt
 
 from mgehl.model.course import ROUNDED
 
@@ -31,10 +31,10 @@ JUST = 1e-9
 
 def expected_steps(scene, mesh, fixed=None):
     """Steps that a `Scene` will take on a mesh, if none is halved; of smooth bodies a guess."""
-    if fixed:
-        return int(-(-scene.end // fixed))
     times = [scene.end * part / FIRST_STEPS for part in range(FIRST_STEPS + 1)]
     cells = sum(scene.fastest(scene.way(*ends), mesh) for ends in pairwise(times))
+    if fixed:
+        return max(ceil(scene.end / fixed), ceil(cells / scene.most_asked))
     return max(int(cells / (MOST_CELLS_ROUGH if scene.moves else 1.0)), FIRST_STEPS // 4)
 
 
@@ -48,6 +48,8 @@ class Pace:
 
     @property
     def _most_cells(self):
+        if self.fixed:
+            return self.scene.most_asked
         return MOST_CELLS_ROUGH if self.scene.moves else MOST_CELLS
 
     def first(self):
@@ -74,8 +76,7 @@ class Pace:
         # The end of a table may be that of the run but for rounding.
         kinks = [each for each in kinks if each < left - ROUNDED * self.scene.end]
         ends = [each for each in (left, *kinks) if each > JUST * self.scene.end]
-        if not self.fixed:
-            step = self._in_cells(t, step)
+        step = self._in_cells(t, step)
         nearest = min(ends)
         if step >= nearest * (1.0 - JUST):
             return nearest
@@ -90,5 +91,7 @@ class Pace:
             if cells <= self._most_cells * (1.0 + JUST):
                 break
             step *= self._most_cells / cells
+        if self.fixed:
+            return step
         cells = self.scene.most_cells(self.scene.way(t, t + step), self.mesh)
         return step * int(cells + JUST) / cells if cells > 1.0 else step

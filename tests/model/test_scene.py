@@ -15,7 +15,7 @@ def scene(settings):
 
 @pytest.mark.parametrize(
     "body, slide_to_roll, lengths",
-    [("still", 1.0, 1.0), ("body_1", 1.0, 1.0), ("body_2", 1.0, 2.0), ("body_1", -1.9, 20.0),
+    [("still", 1.0, 1.0), ("body_1", 1.0, 1.0 / 1.5), ("body_2", 1.0, 2.0), ("body_1", -1.9, 20.0),
      ("body_2", 2.5, 4.0), ("body_2", 2.0, 1.0)],
 )  # fmt: skip
 def test_a_passage_is_that_of_the_slowest_heights(body, slide_to_roll, lengths):
