@@ -23,16 +23,22 @@ class HeatSection:
 
 OF_BODIES = tuple(f"heat.{field.name}" for field in fields(HeatSection))
 
+OF_THE_OIL = "lubricant.conductivity", "lubricant.thermoviscosity"
+
 
 def heat_choices(tables):
-    """Bodies conduct by all four numbers or by none; a factor of the film needs two numbers of the oil."""
+    """Bodies conduct by all four numbers or by none; a factor of the film needs two numbers of the oil, and
+    means nothing to a wedge."""
     if found := given(tables, OF_BODIES):
         yield Choice(f"beside {found[0]}", needs=OF_BODIES)
-    is_loaded = word_of(tables, "contact.kind") != "wedge"
-    if is_loaded and word_of(tables, "lubricant.heating") == "factor":
+    factor = word_of(tables, "lubricant.heating") == "factor"
+    if word_of(tables, "contact.kind") == "wedge":
+        heating = ("lubricant.heating",) if factor else ()
+        yield Choice('where contact.kind = "wedge"', (*heating, *OF_THE_OIL))
+    elif factor:
         known = given(tables, ("lubricant.oil", "lubricant.kinematic_viscosity_40"))
-        beta = () if known else ("lubricant.thermoviscosity",)
-        yield Choice('where lubricant.heating = "factor"', needs=("lubricant.conductivity", *beta))
+        needs = OF_THE_OIL[:1] if known else OF_THE_OIL
+        yield Choice('where lubricant.heating = "factor"', needs=needs)
 
 
 def check_factor(config, contact):

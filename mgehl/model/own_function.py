@@ -85,7 +85,9 @@ class OwnFunction:
                 raise self.error("must return real numbers, returns complex ones")
             return np.broadcast_to(np.asarray(result, dtype=float), shape)
         except (TypeError, ValueError):
-            found = f"{type(result).__name__} of shape {np.shape(result)}"
+            parts = isinstance(result, tuple | list)  # of several lengths: they have no shape
+            size = f"{len(result)} parts" if parts else f"shape {np.shape(result)}"
+            found = f"{type(result).__name__} of {size}"
             raise self.error(f"must return numbers of shape {shape}, returns {found}") from None
 
     def _call(self, arguments):

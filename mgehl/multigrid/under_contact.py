@@ -91,7 +91,17 @@ def factored(L):
     nothing = np.abs(L.diagonal()) < np.finfo(float).tiny
     if nothing.any():
         L = L - diags(nothing.astype(float))
-    try:
-        return splu(L.tocsc(), **how)
-    except RuntimeError:
-        return splu((L + diags(ROUNDING * L.diagonal())).tocsc(), **how)
+    for leaking in (0.0, ROUNDING):
+        try:
+            return splu((L + diags(leaking * L.diagonal())).tocsc(), **how)
+        except RuntimeError:
+            continue
+    return NoAnswer()
+
+
+class NoAnswer:
+    """In place of the LU of a matrix that has none: GMRES ends with it, and the solve says why."""
+
+    def solve(self, rhs):
+        """Nothing that is a number."""
+        return np.full(np.shape(rhs), np.nan)

@@ -55,6 +55,8 @@ def refusal(function, *arguments):
         ("def law(p): return p, p, p", "must return two arrays, the value and its derivative"),
         ("def law(p): return p, p[0, :2]",
          "must return numbers of shape (2, 3), returns ndarray of shape (2,)"),
+        ("def law(p): return p, (p, 1.0)",
+         "must return numbers of shape (2, 3), returns tuple of 2 parts"),
         ("def law(p): return p, 1j * p", "must return real numbers, returns complex ones"),
         ("def law(p): return p, 'x'", "must return numbers of shape (2, 3), returns str of shape ()"),
     ],

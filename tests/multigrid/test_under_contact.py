@@ -18,3 +18,9 @@ def test_nodes_without_any_flow_keep_their_pressure(nothing):
     balance = np.array([[-2.0, 0.0, 0.0], [0.0, -nothing, nothing], [0.0, nothing, -nothing]])
     p = factored(csr_matrix(balance)).solve(np.array([4.0, 0.0, 0.0]))
     assert p == pytest.approx([-2.0, 0.0, 0.0])
+
+
+def test_a_balance_without_a_solution_has_no_number():
+    """Of a state that has run away: the error of the factorisation ended the run, and `--resume`, too."""
+    balance = np.full((2, 2), np.nan)
+    assert np.isnan(factored(csr_matrix(balance)).solve(np.ones(2))).all()
