@@ -127,17 +127,19 @@ def with_bands(rows):
     return [{name: shown(row, name) for name in row if "±" not in name} for row in rows]
 
 
-def drawn(rows, columns, width=None):
+def drawn(rows, columns, width=None, names=1):
     """Some columns of the rows as text, no line longer than `width`; numbers stand on the right. Columns
-    that have no room are drawn below, with the first column repeated before them."""
-    first, *others = columns
-    blocks, width = [[first]], width or WIDTH
-    for column in others:
+    that have no room are drawn below, of rows that have something there, with the first columns repeated
+    before them: as many as name a row."""
+    first, width = columns[:names], width or WIDTH
+    blocks = [[*first]]
+    for column in columns[names:]:
         wider = _shown(rows, [*blocks[-1], column]).splitlines()
-        if len(blocks[-1]) > 1 and max(map(len, wider)) > width:
-            blocks.append([first])
+        if len(blocks[-1]) > names and max(map(len, wider)) > width:
+            blocks.append([*first])
         blocks[-1].append(column)
-    return "\n\n".join(_shown(rows, block, width) for block in blocks)
+    kept = [[row for row in rows if any(row[column] for column in block[names:])] for block in blocks[1:]]
+    return "\n\n".join(_shown(*each, width) for each in zip([rows, *kept], blocks, strict=True))
 
 
 def _shown(rows, columns, width=10**6):

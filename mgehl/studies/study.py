@@ -174,16 +174,17 @@ class Study:
             left = (time.perf_counter() - self._started) / self._done * max(self.expected - self._done, 0)
             say(f"{self._done:3d}/{max(self.expected, self._done)}  {left:5.0f} s left  {title}{what}")
 
-    def write_table(self, name, rows, shown=()):
+    def write_table(self, name, rows, shown=(), names=1):
         """Write rows (dictionaries of text) as NAME.csv and NAME.md, if there are any, and print them, or
-        what is to be `shown` of their columns that are not empty (collective)."""
-        on_first_rank(self.comm, self._write_table, name, list(rows), shown)
+        what is to be `shown` of their columns that are not empty; the first `names` of them name a row
+        (collective)."""
+        on_first_rank(self.comm, self._write_table, name, list(rows), shown, names)
 
     def draw(self, name, function, *arguments):
         """Draw NAME.png, the figure that `function(*arguments)` returns, on rank 0 (collective)."""
         on_first_rank(self.comm, self._draw, name, function, arguments)
 
-    def _write_table(self, name, rows, shown):
+    def _write_table(self, name, rows, shown, names):
         if not rows:
             return
         heads = list(dict.fromkeys(head for row in rows for head in row))
@@ -195,7 +196,7 @@ class Study:
         write_whole(self.directory / f"{name}.md", markdown(rows, heads) + "\n")
         if self.speak:
             shown = [head for head in shown if any(row.get(head) for row in rows)] or heads
-            say(f"\n{name}\n\n{drawn(rows, shown, columns())}\n")
+            say(f"\n{name}\n\n{drawn(rows, shown, columns(), names)}\n")
 
     def _draw(self, name, function, arguments):
         from mgehl.output.pictures.style import applied, save  # matplotlib is slow to import

@@ -1,13 +1,16 @@
 """A contact at many values of its keys: each point starts from its neighbours and is a run of its own,
-runs/001, ... in the order of solving.
+runs/001, ... in the order of solving. What has no answer so is looked for once more from the point after
+it, the last one first: runs/001-again, ...
 
 sweep.csv, .md, .nc, .png are one table, the same as arrays with a dimension for each key, and curves;
 report.html has all. A point that has no answer is said and passed.
 """
 
+from dataclasses import dataclass, field
 from functools import partial
 from itertools import pairwise
 from math import log, nan
+from pathlib import Path
 
 import numpy as np
 
@@ -33,6 +36,9 @@ SHOWN = [
 ]  # fmt: skip
 """Columns that are printed; the table has more."""
 
+AGAIN = "-again"
+"""What the name of a run ends with that started from the point after it."""
+
 NEAR = 4.0
 """Ratio of two films, and of two steps along a key, within which what changes is forecast."""
 
@@ -53,31 +59,81 @@ def fill(study, directory, axes, points, name="sweep"):
     """The same in a `Study`'s directory, in files NAME.csv, ...; return the `Told` runs (collective)."""
     from mgehl.output.pictures.curves import curves  # matplotlib is slow to import
 
-    folder, behind, runs = directory / RUNS, [], []
+    folder, called = directory / RUNS, "" if name == "sweep" else f"{name}, "
     on_first_rank(study.comm, _refuse_others, folder, points)
-    called = "" if name == "sweep" else f"{name}, "
     study.expected = max(study.expected, len(points))
-    for point in points:
-        title, path = f"{called}{_title(axes, point)}", folder / point.run
-        solution = study.passed(title, study.run, path, point.config, start_of(behind, axes, point))
-        if not solution:
-            runs.append(Told(portable(point.config), None, study.lost[title]))
-            continue
-        study.failures += not solution.result.converged
-        study.tell(title, solution.result)
-        runs.append(study.comm.bcast(on_first_rank(study.comm, read_told, path)))
-        behind = [*behind[-1:], (point, solution)] if solution.result.settled else behind
-    rows = study.comm.bcast(on_first_rank(study.comm, _rows, folder, axes, points, runs))
-    study.write_table(name, rows, [axis.key for axis in axes] + SHOWN)
+    met = _Met(study, folder, called, axes)
+    met.in_order(points)
+    met.once_more()
+    runs, names = [each.told for each in met.points], [each.run for each in met.points]
+    rows = study.comm.bcast(on_first_rank(study.comm, _rows, folder, axes, points, runs, names))
+    study.write_table(name, rows, [axis.key for axis in axes] + SHOWN, names=len(axes))
     on_first_rank(study.comm, write_arrays, study.directory / f"{name}.nc", axes, points, runs)
     study.draw(name, curves, runs, axes[0].key, [WAYS[p.way] for p in points if points[-1].way])
     return runs
 
 
+@dataclass
+class _MetPoint:
+    """A `Point` that was solved, or not: what its run tells, and the name of that run."""
+
+    point: object
+    told: Told
+    run: str
+
+
+@dataclass
+class _Met:
+    """Solves the points of a `Study` in a folder (collective)."""
+
+    study: object
+    folder: Path
+    called: str
+    """What stands before the titles of its points."""
+    axes: tuple
+    points: list = field(default_factory=list)
+    """Those that were solved so far, or not, as `_MetPoint`."""
+
+    def in_order(self, points):
+        """Solve points one after the other, each from those behind it."""
+        behind = []
+        for point in points:
+            solution, met = self._meet(point, point.run, start_of(behind, self.axes, point))
+            self.points.append(met)
+            behind = [*behind[-1:], (point, solution)] if met.told.settled else behind
+
+    def once_more(self):
+        """Look for what was not found from the point after it, the last one first."""
+        study = self.study
+        for k in reversed(range(len(self.points) - 1)):
+            met, after = self.points[k : k + 2]
+            was_tried = met.told.result and not met.told.settled
+            config = met.point.config
+            if not was_tried or not after.told.settled or config.is_in_time or config.is_dry:
+                continue
+            study.expected += 1
+            start = study.run(self.folder / after.run, after.point.config)
+            _, again = self._meet(met.point, f"{met.point.run}{AGAIN}", start, ", again")
+            study.failures -= 1  # one point fails once
+            self.points[k] = again if again.told.settled else met
+
+    def _meet(self, point, run, start, more=""):
+        """The `Solution` of a point, or None, and its `_MetPoint`."""
+        study, title = self.study, f"{self.called}{_title(self.axes, point)}{more}"
+        solution = study.passed(title, study.run, self.folder / run, point.config, start)
+        if not solution:
+            return None, _MetPoint(point, Told(portable(point.config), None, study.lost[title]), run)
+        study.failures += not solution.result.converged
+        study.tell(title, solution.result)
+        told = study.comm.bcast(on_first_rank(study.comm, read_told, self.folder / run))
+        return solution, _MetPoint(point, told, run)
+
+
 def _refuse_others(folder, points):
     """Raise OutputError where a folder has runs of other points besides: no table would tell of them."""
     there = {path.name for path in folder.iterdir()} if folder.is_dir() else set()
-    if others := sorted(there - {point.run for point in points}):
+    names = {point.run + more for point in points for more in ("", AGAIN)}
+    if others := sorted(there - names):
         raise OutputError(f"--resume: {folder / others[0]} is of a longer sweep; choose another with --out")
 
 
@@ -86,16 +142,16 @@ def _title(axes, point):
     return ", ".join(words) + (f", {WAYS[1]}" if point.way else "")
 
 
-def _rows(folder, axes, points, runs):
-    """Text of all points, in order."""
+def _rows(folder, axes, points, runs, names):
+    """Text of all points, in order; `names` are those of their runs."""
     keys = [axis.key for axis in axes]
-    there = [folder / point.run for point, told in zip(points, runs, strict=True) if told.result]
+    there = [folder / run for run, told in zip(names, runs, strict=True) if told.result]
     found = {row["run"]: row for row in (collect(there, keys) if there else [])}
     rows = []
-    for point, told in zip(points, runs, strict=True):
-        row = {"run": point.run} | ({"way": WAYS[point.way]} if points[-1].way else {})
+    for point, told, run in zip(points, runs, names, strict=True):
+        row = {"run": run} | ({"way": WAYS[point.way]} if points[-1].way else {})
         row |= {key: said(point.config.value(key)) for key in keys}
-        row |= found.get(point.run, {"converged": "no"})
+        row |= found.get(run, {"converged": "no"})
         why = told.result["reason"] if told.result else told.why
         rows.append(row | {"why not": "" if told.converged else why})
     return [{name: text for name, text in row.items() if name not in NEVER_THE_SAME} for row in rows]

@@ -1,4 +1,5 @@
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 
 import h5netcdf
@@ -9,6 +10,7 @@ from places import names_in
 from told import counting, rows_of
 
 import mgehl
+import mgehl.run as run_module
 from mgehl.cli import main
 from mgehl.config import load_config
 from mgehl.errors import UserError
@@ -111,6 +113,22 @@ def test_a_point_that_fails_is_said_and_passed(tmp_path, capsys, monkeypatch):
     assert first is None and second is not None and third.last.config.motion.speed == 0.5
     assert np.isnan(array(tmp_path / "film", "central_film_nm")).tolist() == [False, True, False]
     assert [row["why not"] for row in table(tmp_path / "film")] == ["", "no memory", ""]
+
+
+def test_what_nothing_leads_to_is_found_from_the_point_after_it(tmp_path, monkeypatch):
+    """A sweep that began at its hard end lost a point that its neighbour leads to at once."""
+    begin, hurried = run_module.begin, []
+
+    def first_fails(task):
+        hurried.append(task)
+        newton = replace(task.settings.newton, max_steps=1 if len(hurried) == 1 else 200)
+        return begin(replace(task, settings=replace(task.settings, newton=newton)))
+
+    monkeypatch.setattr(run_module, "begin", first_fails)
+    assert main([*SWEEP, str(tmp_path / "film")]) == 0
+    assert [row["run"] for row in table(tmp_path / "film")] == ["001-again", "002", "003"]
+    assert names_in(tmp_path / "film" / "runs") == {"001", "001-again", "002", "003"}
+    assert main([*SWEEP, str(tmp_path / "film"), "--resume"]) == 0 and len(hurried) == 2
 
 
 def test_what_is_unusual_is_said_once(tmp_path, capsys, monkeypatch):

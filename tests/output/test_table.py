@@ -76,3 +76,13 @@ def test_a_run_in_time_is_told_by_its_means():
     assert [of_what(each) for each in (told.result, {"time": {"means": {}}}, {})] == [PASSAGE, INSTANT, ""]
     for time in ({}, {"time": None}, {"time": {"means": {}}}):
         assert with_means(instant | time) == instant | time
+
+
+def test_columns_without_room_are_drawn_of_rows_that_have_something_there():
+    """After all the names of a row: of a sweep over two keys the one that failed could not be told."""
+    rows = [
+        {"u": str(k), "load": "10", "film": "100", "why": "no answer at all" * (k == 2)} for k in (1, 2)
+    ]
+    wide, below = drawn(rows, ["u", "load", "film", "why"], width=30, names=2).split("\n\n")
+    assert len(wide.splitlines()) == 4
+    assert below.splitlines()[2].split(maxsplit=2) == ["2", "10", "no answer at all"]
