@@ -95,7 +95,7 @@ class SolverSection:
         ("newton-mg", "relaxation"))
     tolerance: float = number(1e-8, "rms residual and load error at convergence", above=0.0, high=1e-2)
     start: str = word("film", "first guess: a full film, or contact", ("film", "contact"))
-    max_steps: int = whole(200, "Newton steps on one grid at the most", 0, 10000)
+    max_steps: int = whole(400, "Newton steps on one grid at the most", 0, 10000)
     idle_steps: int | None = whole(None, "steps in vain after which a solve is given up (unset: 15; in "
         "time 30; with peaks near the other body none)", 1, 10000)
     max_work: int = whole(4000, "convolutions after which a run ends without an answer; in time after "

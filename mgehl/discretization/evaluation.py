@@ -31,7 +31,8 @@ class Evaluation:
     def _evaluated_fluid(self):
         touching, torn = self.status == CONTACT, self.status == CAVITATED
         cavities = (torn, self.filling) if self.filling is not None and torn.any() else (None, None)
-        return fluid_state(self.P, self.H, self.contact, self.scheme.contact_law, touching, *cavities)
+        where, tears = (touching, *cavities), self.scheme.cavitation
+        return fluid_state(self.P, self.H, self.contact, self.scheme.contact_law, *where, tears)
 
     def by(self, scheme):
         """The same state and fluid, differenced by another scheme of the same contact law."""

@@ -7,6 +7,9 @@ import numpy as np
 from mgehl.discretization.mean_kernels import linear_gap_means, logarithmic_means
 from mgehl.model.rheology import effective_mobilities
 
+VACUUM = 1e5
+"""Pa below the pressure at which oil tears for which laws are asked at the most."""
+
 
 @dataclass
 class Fluid:
@@ -54,19 +57,21 @@ class Fluid:
         return Fluid(*(None if array is None else array[lines] for array in arrays))
 
 
-def fluid_state(P, H, contact, contact_law, touching=None, torn=None, filling=None):
+def fluid_state(P, H, contact, contact_law, touching=None, torn=None, filling=None, tears=False):
     """Evaluate the constitutive laws at nodes of fluid pressure `P` and gap `H`.
 
     `contact` gives the lubricant, the unit of P and lambda; the `contact_law` the gap that the Poiseuille
     flow sees: at `touching` nodes what contact keeps. H must be positive wherever the node can exchange
-    fluid. Nodes that are `torn`, whose pressure is given, hold their `filling`.
+    fluid. Nodes that are `torn`, whose pressure is given, hold their `filling`. Where oil `tears`, nodes
+    that wait for their turn may have less pressure than it has laws for (`VACUUM`).
     """
     follows = None
     if touching is not None and not contact_law.closes_faces:
         H, follows = np.where(touching, contact_law.contact_gap, H), ~touching
     lubricant, p_h = contact.lubricant, contact.pressure_scale
-    rho, drho_dP = lubricant.density(P, p_h)
-    log_eta, dlog_eta_dP = lubricant.log_viscosity(P, p_h)
+    borne = np.maximum(P, contact.tears_at - VACUUM / p_h) if tears else P
+    rho, drho_dP = lubricant.density(borne, p_h)
+    log_eta, dlog_eta_dP = lubricant.log_viscosity(borne, p_h)
     by_H3 = rho * np.exp(-log_eta) / contact.lambda_
     gap, dgap_dH = contact_law.flow_gap(H)
     by_H2 = by_H3 * gap * gap

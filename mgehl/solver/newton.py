@@ -156,7 +156,7 @@ class Newton(PythonSnes):
         c, dH0 = self._space.read(self._correction)
         dP = self._multigrid.jacobian.pressures(c)
         where = problem, self._partition, self._evaluation, state
-        length, H, dH = step_length(*where, dP, dH0, self._settings)
+        length, H, dH = step_length(*where, dP, dH0, self._settings, self._in_turn)
         if self._layers:
             self._layers.follow(state, c, dH, length)
         state.P -= length * dP
@@ -171,6 +171,7 @@ class Newton(PythonSnes):
         """The `Outcome`, and what SNES is told of it."""
         position, reasons = self._position, PETSc.SNES.ConvergedReason
         contradictions = list(verdict.contradictions)
+        self._partition.fit(position.state)  # what waited for its turn waits no more
         found = verdict.converged, verdict.reason, position.cycles, contradictions
         self._outcome = Outcome(position.state, *found)
         self._snes.setConvergedReason(

@@ -4,7 +4,9 @@ cavitated: enters when P < 0, leaves when it would hold more than its gap does. 
 H_th, leaves when P < 0; one that leaves its faces open leaves when p > P, too.
 
 All whose sign is wrong change at once; where that goes in a circle, neighbours in turn: a node that is torn
-or fills takes away what asked the next one to [block principal pivoting, Judice and Pires 1994].
+or fills takes away what asked the next one to [block principal pivoting, Judice and Pires 1994]. Those that
+wait keep what the step gave them, a negative pressure or more than the gap holds: what is cut lifts the
+bodies, and throws thin films beside it.
 """
 
 from dataclasses import dataclass
@@ -99,29 +101,28 @@ class Partition:
         """The `Past` of nodes before the first step."""
         return Past.none(self._grid.shape)
 
-    def tension(self, P, status):
-        """Where fluid would be torn, and where contact, by negative pressures: two arrays (lines, nx)."""
+    def tension(self, P, status, in_turn=False):
+        """Where negative pressures tear fluid now, and where contact: arrays (lines, nx) (collective)."""
         negative = P < self._tears_at
         torn = negative & (status == LUBRICATED) & self._problem.scheme.cavitation
-        return torn, negative & (status == CONTACT)
+        return self._that_change(torn, self._tears_at - P, in_turn), negative & (status == CONTACT)
 
     def follow_gap(self, state, changes, in_turn):
         """After a step moved the gap: gaps close, contact that its fluid lifts opens, cavities fill."""
         self.enter_contact(state, changes)
         self.open_contact(state, changes, in_turn)
         self.fill(state, changes, in_turn)
-        self.fit(state)
+        self.fit(state, in_turn)
 
     def cut_tension(self, state, changes, in_turn=False):
         """Set pressures below that of torn film to it in place: fluid cavitates, contact is released, but
         not where fluid presses under open faces (`open_contact`): that would open empty."""
         P, status = state.P, state.status
-        torn, tensile = self.tension(P, status)
-        opened = self._that_change(torn, self._tears_at - P, in_turn)
+        opened, tensile = self.tension(P, status, in_turn)
         apart = tensile & (self._contact_law.closes_faces | (state.p <= self._tears_at))
         self.past.torn_pressure[apart] = P[apart] - self._tears_at
         self.past.turns += apart & self._contact_law.closes_faces
-        P[torn | tensile] = self._tears_at
+        P[opened | tensile] = self._tears_at
         # Bodies that are torn apart leave an empty gap: a cavity, until fluid flows in.
         status[opened | apart] = CAVITATED
         state.filling[opened], state.filling[apart] = 1.0, 0.0
@@ -159,9 +160,10 @@ class Partition:
         """Pressures by which nodes would lift themselves off the layers as far as they are, (lines, nx)."""
         return (state.H - self._contact_law.contact_gap) / self._problem.K00
 
-    def fit(self, state):
+    def fit(self, state, in_turn=False):
         """Contents from nothing to what the gap holds, and p as P where there are no solids; in place."""
-        state.filling = np.clip(state.filling, 0.0, 1.0)
+        most = np.where((state.status == CAVITATED) & in_turn, np.inf, 1.0)
+        state.filling = np.clip(state.filling, 0.0, most)
         contact = (state.status == CONTACT) & (not self._contact_law.closes_faces)
         state.p = np.where(contact, np.maximum(state.p, self._tears_at), state.P)
 

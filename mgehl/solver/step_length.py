@@ -13,9 +13,10 @@ SMALLEST = 1e-300
 """So that nothing is divided by zero."""
 
 
-def step_length(problem, partition, evaluation, state, dP, dH0, settings):
+def step_length(problem, partition, evaluation, state, dP, dH0, settings, in_turn=False):
     """Part of the step -dP (lines, nx), -dH0 from an evaluated state, at most 1, by `NewtonSettings`; the
-    gap that it leads to, and what the gap falls by in a whole step, or None (collective)."""
+    gap that it leads to, and what the gap falls by in a whole step, or None (collective). With `in_turn` so
+    does the `Partition` change."""
     # A film falls to the pressure at which it tears and no further, whatever a step asks for.
     room = np.where(state.status == LUBRICATED, state.P - problem.contact.tears_at, np.inf)
     largest = problem.grid.max(np.abs(np.minimum(dP, room)), initial=0.0)
@@ -26,7 +27,7 @@ def step_length(problem, partition, evaluation, state, dP, dH0, settings):
     if not settings.by_film:
         return length, None, None
     P = state.P - length * dP
-    P[np.logical_or(*partition.tension(P, state.status))] = problem.contact.tears_at
+    P[np.logical_or(*partition.tension(P, state.status, in_turn))] = problem.contact.tears_at
     H = problem.gap(P, state.H0 - length * dH0)
     allowed = LARGEST_CHANGE / max(mean_change(problem, evaluation, state, H), SMALLEST)
     dH = (state.H - H) / length

@@ -180,6 +180,7 @@ class TestSolutions:
             state = State(lines(grid, torn), 0.0, np.ones(grid.shape), status)
             partition.cut_tension(state, changes := Changes(), in_turn=True)
             found.append((whole(grid, state.status), changes.total))
+            np.testing.assert_array_equal(state.P == 0.0, state.status == CAVITATED)
         (status, total), (serial, expected) = found
         np.testing.assert_array_equal(status, serial)
         assert 100 < total == expected < 63**2 // 4
