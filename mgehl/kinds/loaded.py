@@ -162,7 +162,10 @@ class LoadedKind(Kind):
             f"Hertz      {self.hertz_words(hertz)}   {p_h_words(hertz)}{first}",
             f"films, {unit}  {shown}{time.of_formulas(config)}",
             *(f"           {words}" for words in assumptions(contact)),
-            *(f"lambda     {words}" for words in lambda_words(config, own.expected_film, "a formula's")),
+            *(
+                f"lambda     {words}"
+                for words in lambda_words(config, contact.expected_film, "a formula's")
+            ),
             *(f"heat       {words}" for words in (*factor_words(contact), *heat_words(config, contact))),
             f"load       {_over_time(config, self.load_key, contact.load)} {self.load_unit}   "
             f"speed {_over_time(config, 'motion.speed', contact.speed)} m/s, the mean of both surfaces' "
@@ -187,12 +190,12 @@ class LoadedKind(Kind):
 
     def scalars(self, solution):
         """Load, films, gaps of rough bodies, pressure and groups; bands where there are any."""
-        contact, result, groups = solution.contact, solution.result, solution.contact.unheated.groups
+        result, speed, groups = solution.result, solution.speed, solution.driven.unheated.groups
         error, mixed = result.error, result.mixed
         gaps = mixed if mixed and mixed.mean_gap_nm is not None else None
         gap_error = gaps.error if gaps else None
         found = {
-            "speed": (contact.speed, "m s-1", "entrainment speed"),
+            "speed": (speed, "m s-1", "entrainment speed"),
             "normal_load": (solution.at_the_end.load, self.load_unit.replace("/m", " m-1"), "normal load"),
             "central_film": _nm(result, "central_film_nm", "film at the centre of the contact"),
             "minimum_film": _nm(result, "minimum_film_nm", "smallest film"),

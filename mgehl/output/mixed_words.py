@@ -15,8 +15,7 @@ def mixed_lines(mixed):
     unit = mixed.area_unit.replace("µm²", "um^2")
     largest = f", the largest {1e12 * mixed.largest_patch_m2:.4g} {unit}" if mixed.patches else ""
     return [
-        f"lambda {_known(mixed.lambda_ratio)} (smooth film of the formula over Sq {mixed.Sq_nm:.4g} nm): "
-        f"contact carries {_shares(mixed)}",
+        f"lambda {_known(mixed.lambda_ratio)} ({_ratio_words(mixed)}): contact carries {_shares(mixed)}",
         f"real contact area {1e12 * mixed.contact_area_m2:.4g} {unit}, "
         f"{100 * mixed.contact_area_over_hertz:.2f} % of the Hertz area, in {patches}{largest}",
         *_carried_by_solids(mixed),
@@ -25,6 +24,12 @@ def mixed_lines(mixed):
         f"{_known(mixed.minimum_film_nm)} nm, {_known(mixed.valley_film_nm)} nm in valleys deeper than Sq; "
         f"torn on {100 * mixed.torn_share:.2f} % of it{filling_words(mixed)}",
     ]
+
+
+def _ratio_words(mixed):
+    """What lambda is the ratio of."""
+    film = f" {mixed.lambda_ratio * mixed.Sq_nm:.4g} nm" if mixed.lambda_ratio else ""
+    return f"smooth film of the formula{film} over Sq {mixed.Sq_nm:.4g} nm"
 
 
 def filling_words(result):

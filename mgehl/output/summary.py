@@ -86,8 +86,11 @@ def summarise_in_time(problem, outcome, rows, scene, tolerance, making):
     elif not settled:
         reason = f"the account of the oil is off by {off:.1e} of it in a step"
     cut, why = result.edge.wrong
+    moes = end.unheated.moes_scale / problem.contact.unheated.moes_scale if end.speed else None
+    film = result.moes_film
     return replace(
         result, converged=settled and not cut, settled=settled, reason=(settled and why) or reason,
+        moes_film=moes and MoesFilm(moes * film.central, moes * film.minimum),
         mass=None, flux_imbalance=None, error=OF_AN_INSTANT, time=time,
         thermal_reduction=end.thermal_reduction,
         mixed=result.mixed and replace(result.mixed, lambda_ratio=end.lambda_ratio),

@@ -3,7 +3,6 @@
 from math import inf, isinf
 
 from mgehl.kinds.surface import parts_of
-from mgehl.model.on_bodies import NEXT_TO_NONE
 from mgehl.model.surface import Measured
 
 RESOLVED_NODES, SEEN_NODES = 8.0, 4.0
@@ -59,7 +58,7 @@ def surface_lines(config, contact, mesh):
     ratio = f"{contact.lambda_ratio:.3g}" if contact.lambda_ratio else "without end"
     yield (
         f"surface    Sq {1e9 * rms:.4g} nm   Ssk {contact.skewness:.3g} (within the Hertz contact"
-        f"{begun})   lambda {ratio} (the formula's film over Sq)"
+        f"{begun})   lambda {ratio} (the formula's film {1e9 * contact.expected_film:.4g} nm over Sq)"
     )
     verdict = surface_verdict(contact, nodes)
     # A filter's cut-off leaves a part of shorter ones.
@@ -80,7 +79,7 @@ def surface_doubts(config, contact):
         if isinstance(part, Measured):
             yield from (f"{key}: {words}" for words in _doubts(part.heights))
     rms, than = contact.roughness, None
-    if NEXT_TO_NONE < rms < SMOOTHEST:
+    if 0.0 < rms < SMOOTHEST and not config.is_in_time:
         than = f"{1e9 * rms:.2g} nm within the Hertz contact, less than any surface has"
     elif rms > ROUGHEST:
         than = f"{1e6 * rms:.3g} um within the Hertz contact, more than a surface that rolls or slides has"

@@ -105,15 +105,14 @@ def said(value):
 def _work(finest, nodes):
     """Columns of the work on a grid of so many nodes, from its rows of the history. A run may solve on it
     several times, from step 0 each; between them are other grids, too."""
-    iterations = (each.get("linear_iterations", "0") for each in finest)
+    iterations = (each["linear_iterations"] for each in finest if "linear_iterations" in each)
     found = {"most GMRES iterations": max(iterations, key=int, default="")}
-    steps = [
-        float(each["seconds"]) - float(before["seconds"])
-        for before, each in pairwise(finest) if "seconds" in each and int(each["step"]) > 0
-    ]  # fmt: skip
-    if steps:
-        found["Newton steps on finest"] = str(len(steps))
-        found["us a step and node"] = f"{1e6 * sum(steps) / len(steps) / nodes:.3f}"
+    rows = [(b, a) for b, a in pairwise(finest) if "seconds" in a and int(a["step"]) > 0]
+    seconds = sum(float(after["seconds"]) - float(before["seconds"]) for before, after in rows)
+    # A row of a run in time is a step in time.
+    if steps := sum(int(after.get("newton_steps", 1)) for _, after in rows):
+        found["Newton steps on finest"] = str(steps)
+        found["us a step and node"] = f"{1e6 * seconds / steps / nodes:.3f}"
     return found
 
 

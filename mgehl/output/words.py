@@ -145,14 +145,15 @@ def _errors(result):
         f"residual {result.residual:.1e}, load error {result.load_error:.1e}, complementarity "
         f"{result.complementarity_error:.1e}{flux}"
     )
-    yield from _oil(result.mass, "Hertz ellipse")
+    per_metre = result.friction and result.friction.per_metre
+    yield from _oil(result.mass, "Hertz width" if per_metre else "Hertz ellipse", per_metre)
 
 
-def _oil(mass, where):
+def _oil(mass, where, per_metre=False):
     """What flows through, and what is made of it; nothing of an older result."""
     if mass:
         yield (
-            f"oil: {mass.enters:.3g} m3/s enter the {where}, {mass.leaves:.3g} leave "
+            f"oil: {mass.enters:.3g} m{2 if per_metre else 3}/s enter the {where}, {mass.leaves:.3g} leave "
             f"it; a node, or nodes of one kind, make at most {mass.made_share:.1e} of it"
         )
 
@@ -293,8 +294,7 @@ def time_lines(time):
 
 
 def mean_words(mean, scale=1.0):
-    """A `Mean` times `scale`, with its band; with four digits where it has none, or one below them:
-    passages that are alike say nothing of the grid."""
+    """A `Mean` times `scale`, with its band where passages are not alike: those say nothing of the grid."""
     if mean.band and mean.band > ALIKE * abs(mean.value):
         return with_band(scale * mean.value, scale * mean.band)
     return f"{scale * mean.value:.4g}"
