@@ -91,6 +91,18 @@ def test_friction_at_the_end_is_that_of_its_speed_and_load(course):
     assert found.power_loss_W == pytest.approx(power)
 
 
+def test_what_is_exported_is_of_the_end(course):
+    """Load and film were of the end, the speed and the groups of the beginning."""
+    speed, load = course((0.0, 0.09), (0.1 * UNIT, 0.03)), 15.0
+    slower = solved(motion__speed=speed, time__end=0.1 * UNIT)
+    there = slower.contact.at_speed(0.03)
+    told = {name: number[0] for name, number in slower.config.kind.scalars(slower).items()}
+    assert (told["speed"], told["normal_load"]) == pytest.approx((0.03, load))
+    assert told["moes_M"] == pytest.approx(there.groups.M)
+    H = 1e-9 * slower.summary.central_film_nm * there.moes_scale
+    assert slower.summary.moes_film.central == pytest.approx(H)
+
+
 def test_a_course_of_the_speed_does_not_end_the_thinning(course):
     """A table that stays had the film of oil that shear does not thin."""
     thin, speed = solved(**THINNED), course((0.0, 0.09), (UNIT, 0.09))
@@ -511,3 +523,8 @@ def test_a_file_must_reach_as_far_as_it_goes(tmp_path):
     case.check_ways((0.01 * case.contact.x_scale, 0.0))
     with pytest.raises(ConfigError, match="on its way ends inside the contact"):
         case.check_ways((0.0, 2.0 * case.contact.x_scale))  # where the run that it starts from has ended
+
+
+def test_an_end_before_the_means_have_settled_is_told():
+    moving = ROUGH | {"surface.rms": 1e-9, "time.until": "settled"}
+    assert "means over passages have not" in solved(moving, time__end=0.1 * UNIT).summary.reason

@@ -7,6 +7,10 @@ from mgehl.output.files import CHECKPOINT, SERIES, on_first_rank
 from mgehl.output.frames import Frames
 from mgehl.output.series import have_settled, row_of, title_of, write_series
 from mgehl.saying import complain
+from mgehl.solver.pace import JUST
+
+UNSETTLED = "all steps in time settled, the means over passages have not: give a later time.end"
+"""What is said of a run that time.end cut short."""
 
 FRAMES_OF_A_RUN = 50
 """Frames where time.save_every is not given."""
@@ -32,8 +36,11 @@ class Diary:
         if self.frames.is_due(instant.t, instant.step):
             self._take_frame(instant.t, standing.state, problem.heights)
         self._write_series()
-        settled = keys.until == "settled" and have_settled(progress.rows, self._scene)
-        return "means over passages have settled" if settled else ""
+        if keys.until != "settled":
+            return ""
+        if have_settled(progress.rows, self._scene):
+            return "means over passages have settled"
+        return UNSETTLED if instant.t >= keys.end * (1.0 - JUST) else ""
 
     def _take_frame(self, t, state, heights):
         """Keep the fields of an instant in the user's axes and units; `heights` in m, or None."""

@@ -1,6 +1,7 @@
 from dataclasses import replace
 from math import isfinite
 
+import numpy as np
 import pytest
 
 from mgehl.model.line import LineContact
@@ -24,6 +25,19 @@ def test_a_dent_far_beside_the_contact_is_no_roughness(contact, away):
     """Its tail is 1e-130 m high. In time it may come in: the contact has the schemes of rough bodies."""
     a = contact.x_scale
     dented = replace(contact, surface=Dent(1e-6, 1.4 * a, x=-away * a))
-    assert (dented.roughness > 0.0) == (away == 6.0)
+    assert dented.roughness == 0.0
     assert dented.lambda_ratio is None and isfinite(dented.skewness)
     assert dented.is_rough and not contact.is_rough
+
+
+@pytest.mark.parametrize("where, is_rough", [(0.0, True), (0.94, False)])
+def test_roughness_is_that_within_the_ellipse(where, is_rough):
+    """A dent beside the contact, within its semi-axes along x and y, had an Sq of 15 nm and a lambda."""
+    smooth = CONTACTS["circle"]
+    a = smooth.x_scale
+    contact = replace(smooth, surface=Dent(5e-7, 0.2 * a, where * a, where * a))
+    x = np.linspace(-1.0, 1.0, 401) * a
+    inside = x[None, :] ** 2 + x[:, None] ** 2 <= a**2
+    expected = np.std(contact.surface.height(x[None, :], x[:, None])[inside])
+    assert contact.roughness == pytest.approx(expected, rel=0.02, abs=1e-15)
+    assert is_rough == (contact.roughness > 1e-9) == (contact.lambda_ratio is not None)

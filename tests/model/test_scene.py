@@ -2,8 +2,10 @@ import numpy as np
 import pytest
 
 from mgehl.config import load_config
+from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from
 from mgehl.kinds.time import scene_of
+from mgehl.solver.pace import Pace
 
 WAVES = {"surface.kind": "waviness", "surface.amplitude": 1e-8, "surface.wavelength_x": 1e-4}
 
@@ -100,3 +102,12 @@ def test_heat_thins_the_oil_by_the_speed_and_the_load_of_the_instant(tmp_path):
     thinned = [found.instant(found.contact, t).lubricant.thinned for t in (0.0, 0.5, 1.0)]
     assert thinned[1:] == [pytest.approx(steady.lubricant.thinned), 1.0]
     assert thinned[0] == found.contact.lubricant.thinned < thinned[1] < 1.0
+
+
+@pytest.mark.parametrize("cells, taken", [(0.5, 0.5), (30.0, 4.0)])
+def test_a_step_that_is_asked_for_is_cut_to_the_cells_that_a_film_bears(cells, taken):
+    """A steady film of 127 nm walked off to 210 by steps of 8 cells, and was called converged."""
+    found, mesh = scene({}), Mesh(65, 65, (-2.0, 2.0), (-2.0, 2.0))
+    cell = mesh.dX * found.framed.x_scale / 0.1
+    pace = Pace(found, mesh, cells * cell)
+    assert pace.fitted(0.0, pace.first()) == pytest.approx(taken * cell)

@@ -68,11 +68,15 @@ class Map:
         return replace(self, **{name: value for name, value in values.items() if value is not None})
 
     def with_units(self, height_unit, position_unit, dx, dy):
-        """Itself with units in m and spacing in m, where they are given: units not against its own."""
+        """Itself with units in m and spacing in m, where they are given: not against its own."""
         for name, given in (("height_unit", height_unit), ("position_unit", position_unit)):
             own = getattr(self, name)
             if given and own and not isclose(given, own):
                 raise self.error(f'{name} = "{_called(given)}", but the file itself says "{_called(own)}"')
+        for name, given, own in (("spacing", dx, self.dx), ("spacing_y", dy or dx, self.dy)):
+            own = own and self.position_unit and own * self.position_unit
+            if given and own and not isclose(given, own, rel_tol=UNEVEN):
+                raise self.error(f"{name} = {given:.6g} m, but the file itself says {own:.6g}")
         place = {"dx": dx, "dy": dy or dx, "position_unit": 1.0} if dx else {"position_unit": position_unit}
         return self.told(height_unit=height_unit, **place)
 

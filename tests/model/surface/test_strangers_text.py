@@ -135,6 +135,9 @@ def test_units_that_contradict_the_configuration_are_refused(tmp_path):
         found.with_units(UM, None, None, None)
     with pytest.raises(SurfaceFileError, match='position_unit = "mm", but the file itself says "um"'):
         found.with_units(None, 1e-3, None, None)
+    with pytest.raises(SurfaceFileError, match="spacing = 8e-06 m, but the file itself says 1e-06"):
+        found.with_units(None, None, 8e-6, None)
+    assert found.with_units(None, None, 1e-6, 1e-3).dx == 1e-6
 
 
 def with_positions(corner, x, y, z):
