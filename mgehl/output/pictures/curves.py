@@ -74,7 +74,7 @@ def curves(runs, key, names=()):
     figure, axes = subplots(rows, min(2, len(panels)), size=(10.5, 1.0 + 3.4 * rows), squeeze=False)
     for axis, (label, panel) in zip(axes.flat, panels.items(), strict=False):
         _draw_panel(axis, runs, groups, key, label, panel)
-        shade = _shade_mixed(axis, runs, key)
+        shade = _shade_mixed(axis, runs, key, "" if len(groups) == 1 else ", on some of the curves")
     for axis in axes.flat[len(panels) :]:
         axis.remove()
     looks = [(name, group.colour) for name, group in groups.items()] if len(groups) > 1 else []
@@ -102,7 +102,7 @@ def _draw_panel(axis, runs, groups, key, label, panel):
         axis.legend(handles=handles[0])
 
 
-def _shade_mixed(axis, runs, key):
+def _shade_mixed(axis, runs, key, where):
     """Grey where some run along the key is in mixed lubrication, up to halfway to the next one that is not;
     None where none is."""
     solids, settled = QUANTITIES["load_on_solids"].path, [run for run in runs if run.settled]
@@ -114,7 +114,7 @@ def _shade_mixed(axis, runs, key):
     ends = there[max(first - 1, 0)], min(mixed), max(mixed), there[min(last + 1, len(there) - 1)]
     is_log = axis.get_xscale() == "log"
     middle = [(a * b) ** 0.5 if is_log else 0.5 * (a + b) for a, b in (ends[:2], ends[2:])]
-    label = f"mixed: solids carry {MIXED[0]:.0%} to {MIXED[1]:.0%}"
+    label = f"mixed: solids carry {MIXED[0]:.0%} to {MIXED[1]:.0%}{where}"
     return axis.axvspan(*middle, color="0.92", zorder=0, label=label)
 
 
