@@ -73,7 +73,7 @@ class OnBodies:
         return np.zeros(1) if self.surface is None else self._sampled(0.0, 0.0)
 
     def _sampled(self, dx, dy):
-        """The heights so far, in m, beside places within the Hertz ellipse."""
+        """Heights so far, in m, beside the places of the samples, which lie within the Hertz ellipse."""
         X = np.linspace(-1.0, 1.0, SAMPLES)[None, :]
         Y = np.zeros((1, 1)) if self.is_plane else X.T
         heights = self.surface.height(X * self.x_scale + dx, Y * self.y_scale + dy)
