@@ -137,7 +137,7 @@ class TestEveryKind:
             for key, value in table.items():
                 value = tuple(value) if isinstance(value, list) else value
                 assert rows[f"{section}.{key}"][0].startswith(setting(value))
-        assert rows["grid.nodes"][:2] == ["65", "257"] and rows["solver.max_steps"][:2] == ["200", ""]
+        assert rows["grid.nodes"][:2] == ["65", "257"] and rows["solver.max_steps"][:2] == ["400", ""]
 
     def test_every_field_of_the_result_and_every_cycle(self, run, quick):
         page = quick(run)
