@@ -101,6 +101,10 @@ def test_what_is_exported_is_of_the_end(course):
     assert told["moes_M"] == pytest.approx(there.groups.M)
     H = 1e-9 * slower.summary.central_film_nm * there.moes_scale
     assert slower.summary.moes_film.central == pytest.approx(H)
+    friction = np.average(column(slower, "friction"), weights=column(slower, "step_s"))
+    assert slower.summary.time.whole["friction"] == pytest.approx(friction)
+    assert "over the whole run: mean gap" in str(slower.summary)
+    assert not solved(time__end=0.1 * UNIT).summary.time.whole
 
 
 def test_a_course_of_the_speed_does_not_end_the_thinning(course):

@@ -190,8 +190,8 @@ class LoadedKind(Kind):
 
     def scalars(self, solution):
         """Load, films, gaps of rough bodies, pressure and groups; bands where there are any."""
-        result, speed, groups = solution.result, solution.speed, solution.driven.unheated.groups
-        error, mixed = result.error, result.mixed
+        result, (speed, contact) = solution.result, time.driven(solution)
+        error, mixed, groups = result.error, result.mixed, contact.unheated.groups
         gaps = mixed if mixed and mixed.mean_gap_nm is not None else None
         gap_error = gaps.error if gaps else None
         found = {

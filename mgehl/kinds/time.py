@@ -191,6 +191,14 @@ def extremes(config, contact):
     return tuple(replace(contact, load=load) for load in loads)
 
 
+def driven(solution):
+    """The entrainment speed of a `Solution` in m/s, of a run in time at its end: negative against the motion
+    of the contact; and the contact at that speed, at the largest one where the surfaces rest."""
+    last, largest = solution.last, solution.contact.speed
+    speed = 1e-3 * last["speed_mm_s"] if last else largest
+    return speed, solution.at_the_end.at_speed(abs(speed) or largest)
+
+
 def in_all_directions(config, contact):
     """The contact with the motion in each of its directions until time.end."""
     if not config.is_in_time:

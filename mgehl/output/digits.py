@@ -3,6 +3,8 @@
 import re
 from math import ceil, floor, isfinite, log10
 
+from mgehl.kinds.kind import pressure_unit
+
 MOST_DECIMALS = 9
 """Most decimals of nanometres: far below an atom, and within what a double holds."""
 
@@ -35,3 +37,11 @@ def with_band(value, half_width=None):
     unit, shown = 10.0**-decimals, max(0, decimals)  # below 0 whole tens
     wide = ceil(half_width / unit * (1.0 - 1e-12)) * unit  # never narrower than it is
     return f"{round(value / unit) * unit + 0.0:.{shown}f} ± {wide:.{shown}f}"
+
+
+def pressure_words(GPa, half_width=None):
+    """A pressure, with its band if there is one."""
+    factor, unit = pressure_unit(GPa)
+    if half_width is None and factor > 1.0:
+        return f"{factor * GPa:.4g} {unit}"
+    return f"{with_band(factor * GPa, half_width and factor * half_width)} {unit}"

@@ -1,6 +1,6 @@
 """The result of a run as one record: films, verdicts, work. Its fields are result.json's."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from mgehl.model.contact import Groups
 from mgehl.output.film_error import NOT_ASKED, FilmError
@@ -98,6 +98,8 @@ class TimeResult:
     """Hertz lengths that the slowest moving heights have gone; of smooth bodies the mean surface."""
     means: dict[str, Mean]
     """Over the last passage; none before the end of the first."""
+    whole: dict[str, float] = field(default_factory=dict)
+    """Means over the whole run where speed or load change, as over the cycle of a cam."""
     largest_shear_MPa: float = None
     """Of all steps; None in older results."""
     spikes: int = 0

@@ -163,6 +163,15 @@ def means(rows, gone):
     return found
 
 
+def over_all(rows, scene):
+    """{name: mean over all steps} where speed or load of a `Scene` change; else nothing."""
+    least, most = scene.load.range(scene.end)
+    if scene.is_steady and least == most:
+        return {}
+    weights = [row["step_s"] for row in rows]
+    return {name: float(np.average([row[name] for row in rows], weights=weights)) for name in MEANS}
+
+
 def have_settled(rows, scene):
     """Whether the means of gap and load on solids have settled after `FEWEST` passages."""
     gone = passed(rows, scene)
@@ -186,6 +195,7 @@ def time_result(rows, scene, work, largest_node):
         convolutions_a_step=sorted(each)[len(each) // 2] if each else work.convolutions,
         passages=float(gone[-1]),
         means=means(rows, gone),
+        whole=over_all(rows, scene),
         largest_shear_MPa=max(row["largest_shear_MPa"] for row in rows),
         spikes=sum(row["pressure_crest"] > NARROW for row in rows),
     )

@@ -94,17 +94,6 @@ class Solution:
         return sign * along[0], sign * along[1]
 
     @property
-    def speed(self) -> float:
-        """Entrainment speed of a loaded contact in m/s, of a run in time at its end; negative against the
-        motion of the contact."""
-        return 1e-3 * self.last["speed_mm_s"] if self.last else self.contact.speed
-
-    @property
-    def driven(self) -> LoadedContact:
-        """The contact at its end at that speed; at the largest one where the surfaces rest then."""
-        return self.at_the_end.at_speed(abs(self.speed) or self.contact.speed)
-
-    @property
     def load_share(self) -> float:
         """Load of the fields over that of the contact: of a run in time that of its last instant."""
         return self.last.get("load_share", 1.0) if self.last else 1.0

@@ -1,24 +1,18 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
-from mgehl.kinds.kind import pressure_unit
-from mgehl.output.digits import with_band
-from mgehl.output.friction_result import friction_lines, strength_lines
+from mgehl.output.digits import pressure_words, with_band
+from mgehl.output.friction_result import friction_lines
 from mgehl.output.mixed_words import filling_words, mixed_lines
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words, inlet_words
 from mgehl.output.surface import surface_words
+from mgehl.output.time_words import SPIKE, time_lines
 from mgehl.solver.gaps import NARROW
 
 HARDLY = 2e-3
 """Part of a film by which shear must thin it to be told."""
 
-ALIKE = 1e-4
-"""Part of a mean below which its band is not told."""
-
 LISTED = 20
 """Most nodes that are named one by one."""
-
-SPIKE = "a spike that three nodes do not hold"
-"""What a largest pressure is beyond `NARROW`."""
 
 FAILED = 'what now: configs/README.md, "It did not converge: what now?"'
 UNRESOLVED = 'how to do better: configs/README.md, "Choosing the domain and the grid"'
@@ -258,43 +252,6 @@ def largest_pressure_words(result):
     return f"{pressure_words(result.max_pressure_GPa, band)}{spike}"
 
 
-def pressure_words(GPa, half_width=None):
-    """A pressure, with its band if there is one."""
-    factor, unit = pressure_unit(GPa)
-    if half_width is None and factor > 1.0:
-        return f"{factor * GPa:.4g} {unit}"
-    return f"{with_band(factor * GPa, half_width and factor * half_width)} {unit}"
-
-
 def span(ends):
     """First and last node of a stretch."""
     return f"{ends[0]}..{ends[1]}" if ends else "none"
-
-
-def time_lines(time):
-    """What happened in a run in time, and the means over its last passage."""
-    yield (
-        f"in time: {1e3 * time.end_s:.6g} ms in {time.steps} steps, {time.halved} of them halved, half "
-        f"of them in {time.convolutions_a_step:.3g} convolutions or fewer; {time.passages:.3g} passages"
-    )
-    yield f"oil: storage and flow close to {time.largest_closure:.1e} of what is stored in every step"
-    if time.means:
-        pressure, friction = time.means["max_pressure_GPa"], time.means["friction"]
-        yield (
-            f"over the last passage: mean gap {mean_words(time.means['mean_gap_nm'])} nm, largest pressure "
-            f"{pressure_words(pressure.value, pressure.band or None)}, load on solids "
-            f"{mean_words(time.means['load_on_solids'], 100.0)} %"
-            + (f", friction {mean_words(friction)} of the load" if friction.value else "")
-        )
-    else:
-        yield "no means: the run ends before its first passage"
-    if time.spikes:
-        yield f"in {time.spikes} of {time.steps} steps the largest pressure is the grid's: {SPIKE}"
-    yield from strength_lines(time.largest_shear_MPa)
-
-
-def mean_words(mean, scale=1.0):
-    """A `Mean` times `scale`, with its band where passages are not alike: those say nothing of the grid."""
-    if mean.band and mean.band > ALIKE * abs(mean.value):
-        return with_band(scale * mean.value, scale * mean.band)
-    return f"{scale * mean.value:.4g}"

@@ -8,7 +8,8 @@ from places import ROOT
 import mgehl
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import Mean
-from mgehl.output.words import FAILED, UNRESOLVED, mean_words
+from mgehl.output.time_words import mean_words
+from mgehl.output.words import FAILED, UNRESOLVED
 from mgehl.solver.inequality import Inequality
 
 

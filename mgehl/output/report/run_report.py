@@ -17,7 +17,7 @@ from mgehl.model.films import FORMULAS
 from mgehl.model.own_function import file_and_function
 from mgehl.model.sources import SOURCES
 from mgehl.output.advice import beside_bands
-from mgehl.output.digits import with_band
+from mgehl.output.digits import pressure_words, with_band
 from mgehl.output.files import plain_result
 from mgehl.output.friction_result import coefficient_words, friction_lines
 from mgehl.output.mixed_words import gap_band_words, mean_gaps, mixed_note
@@ -28,15 +28,13 @@ from mgehl.output.resolution import RESOLVED_CELLS, STARVED_FROM, near_rest, of_
 from mgehl.output.summary import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import ADVICE as SURFACE
 from mgehl.output.surface import RESOLVED_NODES
+from mgehl.output.time_words import mean_words, time_lines
 from mgehl.output.words import (
     advice,
     band_words,
     heating_words,
     largest_pressure_words,
-    mean_words,
-    pressure_words,
     span,
-    time_lines,
 )
 from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
 
