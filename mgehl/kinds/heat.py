@@ -5,8 +5,15 @@ from dataclasses import dataclass, fields
 from mgehl.config_value import number, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, given, word_of
+from mgehl.kinds.lubricant import thinning_of
 from mgehl.model.flash import Solid
 from mgehl.model.inlet_heat import LEAST_HEATED
+
+THINNING, CONDUCTIVITY = 0.04, 0.14
+"""Usual beta = -d ln(eta)/dT in 1/K and conductivity in W/(m K) of oils."""
+
+WARM, LEAST_LEFT = 0.98, 0.5
+"""Part of the film that heat leaves, below which it is told, and down to which the formula is trusted."""
 
 
 @dataclass(frozen=True)
@@ -65,3 +72,28 @@ def heated(config, contact):
     if config.lubricant.heating != "factor" or contact.is_at_rest:
         return contact
     return contact.heated()
+
+
+def factor_words(contact):
+    """What Gupta's factor leaves of the films of formulas, of an oil with the data for it."""
+    if contact.thermal_reduction is not None:
+        left = f"some {100.0 * max(contact.thermal_reduction, 0.0):.2g} %"
+        does = f"leaves {left}" if contact.lubricant.thinned < 1.0 else f"would leave {left}"
+        does = does if contact.thermal_reduction >= LEAST_HEATED else f"does not hold: it {does}"
+        yield f'isothermal films: lubricant.heating = "factor" {does} of them (Gupta 1992)'
+
+
+def heat_words(config, contact):
+    """What shear in the inlet leaves of the film, for an oil known over the temperature or a usual one."""
+    if contact.thermal_reduction is not None:
+        return  # the run itself tells it, by the oil's own data
+    known = thinning_of(config)
+    beta = THINNING if known is None else known
+    factor, slip = contact.heated_film(beta, CONDUCTIVITY), contact.friction.slide_to_roll
+    if factor < WARM and "piezoviscous" in contact.regime:
+        left = f"some {100.0 * factor:.2g} %" if factor > LEAST_LEFT else "less than half"
+        usual = f"beta {beta:.2g} 1/K{'' if known else ' and'}"
+        yield (
+            f"isothermal films: heat by shear in the inlet would leave {left} of them (Gupta 1992; "
+            f"slide-to-roll {slip:g}, {usual}{',' if known else ''} k {CONDUCTIVITY:g} W/(m K) as is usual)"
+        )

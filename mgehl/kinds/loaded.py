@@ -9,9 +9,9 @@ from mgehl.config_value import AUTO, FARTHEST
 from mgehl.kinds import loaded_checks, surface, time
 from mgehl.kinds.bodies import roughness
 from mgehl.kinds.friction import check_friction, friction_from
-from mgehl.kinds.heat import check_factor, heated, solids_from
+from mgehl.kinds.heat import check_factor, factor_words, heat_words, heated, solids_from
 from mgehl.kinds.kind import Effort, Kind, kept_together, pressure_unit
-from mgehl.kinds.lubricant import check_laws, lubricant_from, thinning_of
+from mgehl.kinds.lubricant import check_laws, lubricant_from
 from mgehl.model.films import formula_of
 from mgehl.model.own_laws import OwnDensity
 from mgehl.model.room import domain_for, interval_on_nodes
@@ -24,12 +24,6 @@ RELAXATION = Effort(
 
 LONG_FILM = 1e-5
 """Film in m from which on films are told in um."""
-
-THINNING, CONDUCTIVITY = 0.04, 0.14
-"""Usual beta = -d ln(eta)/dT in 1/K and conductivity in W/(m K) of oils."""
-
-WARM, LEAST_LEFT = 0.98, 0.5
-"""Part of the film that heat leaves, below which it is told, and down to which the formula is trusted."""
 
 HALF_WIDTH = "half-width of the band about it that holds its limit on ever finer grids"
 
@@ -262,30 +256,6 @@ def lambda_words(config, film, whose):
         yield (
             f"{film / rms:.3g}: {whose} central film over {1e9 * rms:.4g} nm rms, whose heights are not "
             "solved"
-        )
-
-
-def factor_words(contact):
-    """What Gupta's factor leaves of the films of formulas, of an oil with the data for it."""
-    if contact.thermal_reduction is not None:
-        left = f"some {100.0 * max(contact.thermal_reduction, 0.0):.2g} %"
-        does = f"leaves {left}" if contact.lubricant.thinned < 1.0 else f"would leave {left}"
-        yield f'isothermal films: lubricant.heating = "factor" {does} of them (Gupta 1992)'
-
-
-def heat_words(config, contact):
-    """What shear in the inlet leaves of the film, for an oil known over the temperature or a usual one."""
-    if contact.thermal_reduction is not None:
-        return  # the run itself tells it, by the oil's own data
-    known = thinning_of(config)
-    beta = THINNING if known is None else known
-    factor, slip = contact.heated_film(beta, CONDUCTIVITY), contact.friction.slide_to_roll
-    if factor < WARM and "piezoviscous" in contact.regime:
-        left = f"some {100.0 * factor:.2g} %" if factor > LEAST_LEFT else "less than half"
-        usual = f"beta {beta:.2g} 1/K{'' if known else ' and'}"
-        yield (
-            f"isothermal films: heat by shear in the inlet would leave {left} of them (Gupta 1992; "
-            f"slide-to-roll {slip:g}, {usual}{',' if known else ''} k {CONDUCTIVITY:g} W/(m K) as is usual)"
         )
 
 

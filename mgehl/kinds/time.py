@@ -192,8 +192,8 @@ def extremes(config, contact):
 
 
 def driven(solution):
-    """The entrainment speed of a `Solution` in m/s, of a run in time at its end, negative against the motion
-    of the contact; and the contact at that speed, or at the largest where the surfaces rest."""
+    """The entrainment speed of a `Solution` in m/s, in time at its end, negative against the motion of the
+    contact; and the contact at that speed, or at the largest where the surfaces rest."""
     last, largest = solution.last, solution.contact.speed
     speed = 1e-3 * last["speed_mm_s"] if last else largest
     return speed, solution.at_the_end.at_speed(abs(speed) or largest)

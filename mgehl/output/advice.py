@@ -4,7 +4,8 @@ from dataclasses import replace
 
 from mgehl.config_value import AUTO
 from mgehl.kinds import settled
-from mgehl.kinds.loaded import heat_words, lambda_words
+from mgehl.kinds.heat import heat_words
+from mgehl.kinds.loaded import lambda_words
 from mgehl.output import surface
 from mgehl.output.resolution import RESOLVED_CELLS
 from mgehl.solver.beginning import NOR

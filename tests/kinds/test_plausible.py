@@ -9,6 +9,7 @@ from mgehl.config import load_config
 from mgehl.errors import ConfigError
 from mgehl.kinds import checked_case, contact_from, mesh_from
 from mgehl.kinds.cited import cited
+from mgehl.kinds.heat import factor_words
 from mgehl.kinds.plausible import implausible
 from mgehl.model.sources import SOURCES
 
@@ -194,3 +195,10 @@ def test_a_direction_that_turns_back_after_360_is_named(tmp_path, last, is_odd):
     (tmp_path / "angle.csv").write_text(f"0,350\n0.5,358\n1,{last}\n")
     said = odd([f"motion.angle={tmp_path / 'angle.csv'}", "time.end=1"])
     assert any("from one value to the next" in words for words in said) is is_odd
+
+
+@pytest.mark.parametrize("speed, said", [(1.0, "would leave"), (200.0, "does not hold: it would leave")])
+def test_a_factor_that_would_be_refused_is_said_not_to_hold(speed, said):
+    heat = {"lubricant.conductivity": 0.14, "motion.speed": speed}
+    (line,) = factor_words(contact_from(load_config(settings=OIL | heat)))
+    assert f'lubricant.heating = "factor" {said}' in line
