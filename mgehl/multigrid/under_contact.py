@@ -96,10 +96,10 @@ def factored(L):
             return splu((L + diags(leaking * L.diagonal())).tocsc(), **how)
         except RuntimeError:
             continue
-    return NoAnswer()
+    return _NoAnswer()
 
 
-class NoAnswer:
+class _NoAnswer:
     """In place of the LU of a matrix that has none: GMRES ends with it, and the solve says why."""
 
     def solve(self, rhs):

@@ -62,10 +62,10 @@ def fill(study, directory, axes, points, name="sweep"):
     folder, called = directory / RUNS, "" if name == "sweep" else f"{name}, "
     on_first_rank(study.comm, _refuse_others, folder, points)
     study.expected = max(study.expected, len(points))
-    met = _Met(study, folder, called, axes)
-    met.in_order(points)
-    met.once_more()
-    runs, names = [each.told for each in met.points], [each.run for each in met.points]
+    walk = _Walk(study, folder, called, axes)
+    walk.in_order(points)
+    walk.once_more()
+    runs, names = [each.told for each in walk.stops], [each.run for each in walk.stops]
     rows = study.comm.bcast(on_first_rank(study.comm, _rows, folder, axes, points, runs, names))
     study.write_table(name, rows, [axis.key for axis in axes] + SHOWN, names=len(axes))
     on_first_rank(study.comm, write_arrays, study.directory / f"{name}.nc", axes, points, runs)
@@ -74,8 +74,8 @@ def fill(study, directory, axes, points, name="sweep"):
 
 
 @dataclass
-class _MetPoint:
-    """A `Point` that was solved, or not: what its run tells, and the name of that run."""
+class _Stop:
+    """A `Point` that the walk has come to: what its run tells, and the name of that run."""
 
     point: object
     told: Told
@@ -83,50 +83,50 @@ class _MetPoint:
 
 
 @dataclass
-class _Met:
-    """Solves the points of a `Study` in a folder (collective)."""
+class _Walk:
+    """Solves the points of a `Study` in a folder, each from one beside it (collective)."""
 
     study: object
     folder: Path
     called: str
     """What stands before the titles of its points."""
     axes: tuple
-    points: list = field(default_factory=list)
-    """Those that were solved so far, or not, as `_MetPoint`."""
+    stops: list = field(default_factory=list)
+    """Of the points so far, solved or not, in order."""
 
     def in_order(self, points):
         """Solve points one after the other, each from those behind it."""
         behind = []
         for point in points:
-            solution, met = self._meet(point, point.run, start_of(behind, self.axes, point))
-            self.points.append(met)
-            behind = [*behind[-1:], (point, solution)] if met.told.settled else behind
+            solution, stop = self._solved(point, point.run, start_of(behind, self.axes, point))
+            self.stops.append(stop)
+            behind = [*behind[-1:], (point, solution)] if stop.told.settled else behind
 
     def once_more(self):
         """Look for what was not found from the point after it, the last one first."""
         study = self.study
-        for k in reversed(range(len(self.points) - 1)):
-            met, after = self.points[k : k + 2]
-            was_tried = met.told.result and not met.told.settled
-            config = met.point.config
+        for k in reversed(range(len(self.stops) - 1)):
+            stop, after = self.stops[k : k + 2]
+            was_tried = stop.told.result and not stop.told.settled
+            config = stop.point.config
             if not was_tried or not after.told.settled or config.is_in_time or config.is_dry:
                 continue
             study.expected += 1
             start = study.run(self.folder / after.run, after.point.config)
-            _, again = self._meet(met.point, f"{met.point.run}{AGAIN}", start, ", again")
-            study.failures -= 1  # one point fails once
-            self.points[k] = again if again.told.settled else met
+            _, again = self._solved(stop.point, f"{stop.point.run}{AGAIN}", start, ", again")
+            study.failures -= 1  # a point fails once at the most
+            self.stops[k] = again if again.told.settled else stop
 
-    def _meet(self, point, run, start, more=""):
-        """The `Solution` of a point, or None, and its `_MetPoint`."""
+    def _solved(self, point, run, start, more=""):
+        """The `Solution` of a point, or None, and its `_Stop`."""
         study, title = self.study, f"{self.called}{_title(self.axes, point)}{more}"
         solution = study.passed(title, study.run, self.folder / run, point.config, start)
         if not solution:
-            return None, _MetPoint(point, Told(portable(point.config), None, study.lost[title]), run)
+            return None, _Stop(point, Told(portable(point.config), None, study.lost[title]), run)
         study.failures += not solution.result.converged
         study.tell(title, solution.result)
         told = study.comm.bcast(on_first_rank(study.comm, read_told, self.folder / run))
-        return solution, _MetPoint(point, told, run)
+        return solution, _Stop(point, told, run)
 
 
 def _refuse_others(folder, points):

@@ -202,3 +202,13 @@ def test_a_factor_that_would_be_refused_is_said_not_to_hold(speed, said):
     heat = {"lubricant.conductivity": 0.14, "motion.speed": speed}
     (line,) = factor_words(contact_from(load_config(settings=OIL | heat)))
     assert f'lubricant.heating = "factor" {said}' in line
+
+
+@pytest.mark.parametrize(
+    "key, value", [("conductivity", 0.14), ("thermoviscosity", 0.04), ("heating", "factor")]
+)
+def test_heat_of_the_oil_means_nothing_to_a_wedge(key, value):
+    """Its load was the same to every digit, without a word."""
+    settings = {"contact.kind": "wedge", "motion.speed": 1.0, f"lubricant.{key}": value}
+    with pytest.raises(ConfigError, match=f"lubricant.{key} = .*: means nothing where contact.kind"):
+        load_config(settings=settings)

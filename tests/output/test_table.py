@@ -1,4 +1,5 @@
 import pytest
+from told import rows_of
 
 from mgehl.cli import main
 from mgehl.output.pictures.curves import curves
@@ -29,6 +30,7 @@ def runs(tmp_path_factory):
         "ball": film,
         "dry": ["discretization.contact_model=dry", "grid.nodes=65"],
         "wedge": ["contact.kind=wedge", "motion.speed=1 m/s", "grid.nodes=65"],
+        "time": [*film, "time.end=0.1 ms"],
     }.items():
         words = [f"--set={each}" for each in settings]
         assert main(["run", *words, "--quiet", "--out", str(directory / name)]) == 0
@@ -43,6 +45,14 @@ def test_a_row_for_each_run_of_any_kind(runs):
     assert rows["dry"]["central nm"] == ""
     assert float(rows["dry"]["contact/Hertz area"]) == pytest.approx(1.0, abs=0.1)
     assert float(rows["wedge"]["load N"]) > 0.0 and rows["line"]["load N"] == ""
+
+
+def test_a_run_in_time_counts_its_newton_steps(runs):
+    """Its steps in time were called so, and each took four times as long."""
+    (row,), history = collect([runs / "time"]), rows_of(runs / "time" / "history.csv")
+    assert int(row["Newton steps on finest"]) == sum(int(each["newton_steps"]) for each in history[1:])
+    assert row["most GMRES iterations"] == "" and float(row["us a step and node"]) > 0.0
+    assert float(row["rolling friction"]) > 0.0 and row["numbers of"] == INSTANT
 
 
 def test_runs_of_a_bearing_have_the_speed_that_follows_and_their_lambda(tmp_path):
