@@ -70,9 +70,7 @@ class LoadedKind(Kind):
     def _domain(self, config, contact):
         """The ends along x and y, in semi-axes of the first load, of a domain for every load of a run."""
         contacts = [
-            turned
-            for each in time.extremes(config, contact)
-            for turned in time.in_all_directions(config, each)
+            turned for each in time.extremes(config, contact) for turned in time.towards_all(config, each)
         ]
         found = [self.domain(each, config.grid.nodes) for each in contacts]
         if len(found) == 1:
@@ -108,7 +106,7 @@ class LoadedKind(Kind):
     def _check_in_all_directions(self, config, contact, heaviest):
         """The domain must be large enough for every direction of a run in time, under the heaviest load."""
         ways, wide = (1.0, -1.0)[: 1 + time.reverses(config)], heaviest.x_scale / contact.x_scale
-        for way, turned in product(ways, time.in_all_directions(config, heaviest)):
+        for way, turned in product(ways, time.towards_all(config, heaviest)):
             loaded_checks.check_domain(config.grid, turned, way, wide)
 
     def check_fluid(self, grid, contact):

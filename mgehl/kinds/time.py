@@ -199,7 +199,7 @@ def driven(solution):
     return speed, solution.at_the_end.at_speed(abs(speed) or largest)
 
 
-def in_all_directions(config, contact):
+def towards_all(config, contact):
     """The contact with the motion in each of its directions until time.end."""
     if not config.is_in_time:
         return [contact]
