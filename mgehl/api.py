@@ -35,7 +35,8 @@ def load(
 ) -> Config:
     """Read a configuration (TOML, SI numbers or strings with units); default: the paper's ball.
 
-    `settings` override keys of the file: {"grid.nodes": 129, ...} or ["grid.nodes=129", ...].
+    `settings` override keys of the file: {"grid.nodes": 129, ...}, {"grid": {"nodes": 129}}
+    or ["grid.nodes=129", ...].
     Raises `mgehl.ConfigError`, one line that names the key, the value and what is allowed.
     """
     return load_config(path, settings)

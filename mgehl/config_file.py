@@ -62,8 +62,9 @@ def read_toml(path):
 
 
 def nested(settings):
-    """The nested values of settings, "section.key=value" each or a mapping. Raises ConfigError."""
-    pairs = settings.items() if isinstance(settings, Mapping) else map(_read_setting, settings)
+    """The nested values of settings, "section.key=value" each, or a mapping of these or of sections.
+    Raises ConfigError."""
+    pairs = _of_mapping(settings) if isinstance(settings, Mapping) else map(_read_setting, settings)
     tables = {}
     for name, value in pairs:
         section, dot, key = str(name).partition(".")
@@ -71,6 +72,15 @@ def nested(settings):
             raise ConfigError(f"{name} = {shown(value)}: must be section.key, such as grid.nodes")
         tables.setdefault(section, {})[key] = value
     return tables
+
+
+def _of_mapping(settings):
+    """Each "section.key" of a mapping with its value; a section may be a mapping of its keys."""
+    for name, value in settings.items():
+        if isinstance(value, Mapping) and "." not in str(name):
+            yield from ((f"{name}.{key}", each) for key, each in value.items())
+        else:
+            yield name, value
 
 
 def _read_setting(setting):

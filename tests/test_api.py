@@ -40,6 +40,11 @@ def test_an_array_is_a_sequence():
     assert config.with_({"grid.x": np.array([-3.0, 2.0])}) == config.with_({"grid.x": (-3.0, 2.0)})
 
 
+def test_settings_may_be_sections():
+    flat = {"grid.nodes": 65, "motion.speed": 2.0}
+    assert mgehl.load(settings={"grid": {"nodes": 65}, "motion.speed": 2.0}) == mgehl.load(settings=flat)
+
+
 @pytest.mark.parametrize(
     "settings, words",
     [({"motion.speed": "1 kg"}, "wrong unit"), ({"wedge.slope": 0.1}, "means nothing"),
