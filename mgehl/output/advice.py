@@ -8,8 +8,8 @@ from mgehl.kinds.heat import heat_words
 from mgehl.kinds.loaded import lambda_words
 from mgehl.output import surface
 from mgehl.output.resolution import RESOLVED_CELLS
-from mgehl.solver.beginning import NOR
-from mgehl.solver.recipe import TOUCHING
+from mgehl.solver.beginning import NAMES, NOR
+from mgehl.solver.recipe import FULL_FILM, IN_CONTACT, TOUCHING
 from mgehl.solver.verification import LARGEST_EDGE_PRESSURE
 
 MOST = 3
@@ -26,10 +26,13 @@ SHORTER = 10.0
 default it would take a fifth more work, and loses others."""
 
 OTHER = {
-    "film": 'solver.start = "contact": from the other side, where the film is thinner than the grid sees',
-    "contact": 'solver.start = "film": from the other side, where the bodies may come apart',
+    FULL_FILM: (
+        IN_CONTACT,
+        'solver.start = "contact": from the other side, where the film is thinner than the grid sees',
+    ),
+    IN_CONTACT: (FULL_FILM, 'solver.start = "film": from the other side, where the bodies may come apart'),
 }
-"""What else to try, by the start of the run."""
+"""The other start by the one of a run, and the advice to try it where the run has not by itself."""
 
 
 def what_next(solution):
@@ -59,7 +62,9 @@ def _tries(solution):
         )
     if (result.recipe or {}).get("peaks") == TOUCHING and config.solver.squeeze < SHORTER:
         yield f"solver.squeeze = {SHORTER:g}: shorter time steps, for a fifth more work"
-    yield OTHER[config.solver.start]
+    other, advice = OTHER[config.solver.start]
+    if other not in (result.recipe or {}).get("otherwise", []):
+        yield advice
     if NOR not in result.reason:
         yield "--start-from RUN: from a run at a higher speed that converged; so step by step down"
     steps, work = config.solver.max_steps, config.solver.max_work
@@ -91,10 +96,14 @@ def _of_domain(solution):
 
 
 def beside_bands(solution):
-    """Lines about what the bands of a film do not hold: lambda by a number, heat in the inlet."""
+    """Lines about what the bands of a film do not hold: the start it was found from where that is not the
+    one that was asked for, lambda by a number, heat in the inlet."""
     config, contact = solution.config, solution.contact
     if not contact.is_loaded or solution.is_dry or not solution.result.converged:
         return
+    start, begins = config.solver.start, (solution.result.recipe or {}).get("begins")
+    if begins == OTHER[start][0]:
+        yield f"start: from {NAMES[start]} there was no answer; this one is from {NAMES[begins]}"
     film = 1e-9 * solution.result.central_film_nm
     yield from (f"lambda: {words}" for words in lambda_words(config, film, "the computed"))
     yield from heat_words(config, contact)

@@ -10,7 +10,7 @@ import numpy as np
 
 from mgehl.discretization.axes import own
 from mgehl.discretization.mesh import HALO
-from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 
 CLOSED = 1e-6
 """Part of what flows through that may be made, or lost, by a node or by all nodes of one kind."""
@@ -33,7 +33,7 @@ class Mass:
     largest_node: float
     """The largest such difference of a single node, whatever its sign."""
     carried_in: float
-    """What flows into the domain where the surfaces enter it."""
+    """What flows into the domain, from whatever side."""
 
     @property
     def made(self):
@@ -63,10 +63,8 @@ def account(problem, state, evaluation, inside, unit):
     inner = ~problem.boundary
     made = [-grid.sum((evaluation.inflow[(state.status == kind) & inner]).sum()) for kind in KINDS]
     largest = grid.max(np.abs(np.where(inner, evaluation.inflow, 0.0)), initial=0.0)
-    through, (along, _) = _through(problem, evaluation, inside), evaluation.flows[0]
-    carried_in = grid.sum(
-        mesh.dX * mesh.dY / evaluation.axes[0].cell * np.maximum(along.value[:, 0], 0.0).sum()
-    )
+    through = _through(problem, evaluation, inside)
+    carried_in, _ = _through(problem, evaluation, _of_lines(grid, evaluation.status != BOUNDARY))
     balance = *(cell * each for each in made), cell * largest, carried_in
     return Mass(*(float(unit * each) for each in (*through, *balance)))
 
@@ -77,12 +75,19 @@ KINDS = LUBRICATED, CAVITATED, CONTACT
 def _hertz_ellipse(problem, evaluation):
     """The nodes in it, a ghosted mask; of a line contact those of its width."""
     grid, mesh = problem.grid, problem.grid.mesh
-    lines = np.arange(grid.first - HALO, grid.last + HALO)
-    Y = 0.0 if mesh.is_line else mesh.y[0] + mesh.dY * lines[:, None]
+    Y = 0.0 if mesh.is_line else mesh.y[0] + mesh.dY * _lines(grid)
     inside = np.broadcast_to(mesh.X[None, :] ** 2 + Y**2 <= 1.0, evaluation.status.shape)
-    if mesh.is_line:
-        inside = inside & ((lines >= 0) & (lines < mesh.ny))[:, None]
-    return inside
+    return _of_lines(grid, inside)
+
+
+def _of_lines(grid, nodes):
+    """A ghosted mask without what lies beyond the first and the last line of the domain."""
+    return nodes & (_lines(grid) >= 0) & (_lines(grid) < grid.mesh.ny)
+
+
+def _lines(grid):
+    """Number of each line, ghosts included, as a column."""
+    return np.arange(grid.first - HALO, grid.last + HALO)[:, None]
 
 
 def _through(problem, evaluation, inside):

@@ -62,7 +62,7 @@ def _solve(task, problem, state, settings, solve):
     if recipe.newton.squeeze > 0.0:
         return solve_on(task, problem, state, recipe, solve)
     outcome = solve_on(task, problem, state.copy(), recipe, solve)
-    if outcome.converged:
+    if outcome.converged or not task.may_go_on:
         return outcome
     news = f"not found: {outcome.reason}; now by time steps"
     return solve_on(task, problem, state, patient, replace(solve, news=news))

@@ -84,8 +84,8 @@ class Recipe:
     """Whether it begins on coarse grids, at speeds that they resolve."""
     most_slower: float
     """Ratio of speeds that it is led over at once."""
-    or_otherwise: bool
-    """Whether it begins anew where the first way fails, from the dry contact, then from a thick film."""
+    otherwise: tuple
+    """First guesses from which it begins anew, one after the other, where the first leads nowhere."""
     newton: NewtonSettings
     cycle: CycleSettings
 
@@ -96,16 +96,17 @@ def recipe_of(settings, contact, begins=None):
     start = begins or settings.start
     closed = start == IN_CONTACT and law.has_contact
     touching, rough = peaks == TOUCHING, peaks != NONE
+    guess = _first_guess(start, law, contact) if touching else start
     return Recipe(
         scheme=settings.scheme,
         peaks=peaks,
-        begins=_first_guess(start, law, contact) if touching else start,
+        begins=guess,
         # Coarse grids do not see the peaks, and the dry contact's pressure is nearer to the answer than
         # that of any film. From the dry contact a film twice as thick as the roughness takes twice the
         # work, and one three times as thick is not found (random balls, 257 nodes).
         on_coarse_grids=start == FULL_FILM and not touching and settings.method != "relaxation",
         most_slower=MOST_SLOWER if law.closes_faces else inf,
-        or_otherwise=start == FULL_FILM and touching,
+        otherwise=_otherwise(settings, start, guess, touching),
         newton=_newton(settings, contact, peaks, in_time=closed or touching or start == UNSEEN_FILM),
         cycle=replace(settings.cycle, rough=rough, in_valleys=peaks in (NEAR, TOUCHING)),
     )
@@ -136,6 +137,19 @@ def _first_guess(start, law, contact):
     if contact.expected_film / contact.film_scale < BESIDE_LAYERS * law.contact_gap:
         return DRY
     return UNDER_THIN_FILM if start == IN_CONTACT else UNDER_FILM
+
+
+def _otherwise(settings, start, guess, touching):
+    """What else to begin from. Contact that shuts its faces may have an answer on the side of the film, or
+    of contact, alone."""
+    if touching and start == FULL_FILM:
+        return tuple(each for each in (DRY, THICK_FILM) if each != guess)
+    law = settings.scheme.contact_law
+    shuts = law.closes_faces and law.has_contact and settings.method != "relaxation"
+    return OTHER_SIDE.get(start, ()) if shuts else ()
+
+
+OTHER_SIDE = {FULL_FILM: (IN_CONTACT,), IN_CONTACT: (FULL_FILM,)}
 
 
 def _newton(settings, contact, peaks, in_time):

@@ -14,6 +14,7 @@ from mgehl.solver.recipe import (
     NEAR,
     NONE,
     THICK,
+    THICK_FILM,
     TOUCHING,
     UNDER_FILM,
     UNDER_THIN_FILM,
@@ -35,6 +36,7 @@ BEGINS = {
     UNDER_FILM: "from the dry contact of the peaks, a film laid on it",
     UNDER_THIN_FILM: "from the dry contact of the peaks, nearly no film on it",
     DRY: "from the dry contact of the peaks alone: the film is thinner than the layers",
+    THICK_FILM: "from a film that covers the peaks, slowed down",
     A_STATE: "from another solution",
 }
 
@@ -52,8 +54,8 @@ def recipe_words(recipe, is_line, at_rest=False):
     yield f"contact {law.words}"
     grids = f"coarse grids first{_slower(recipe)}" if recipe.on_coarse_grids else "on the finest grid alone"
     yield f"begins {AT_REST if at_rest else f'{BEGINS[recipe.begins]}, {grids}'}"
-    if recipe.or_otherwise:
-        yield "where that fails, from the dry contact, then from a film that covers the peaks, slowed down"
+    if recipe.otherwise:
+        yield f"where that fails, {', then '.join(BEGINS[each] for each in recipe.otherwise)}"
     yield _steps(newton)
     memory = "; corrections of one system are remembered for the next" if recipe.cycle.rough else ""
     yield f"smoother: {_smoother(recipe, is_line)}{memory}"
@@ -94,7 +96,7 @@ def plain(recipe):
         "begins": recipe.begins,
         "on_coarse_grids": recipe.on_coarse_grids,
         "most_slower": recipe.most_slower if isfinite(recipe.most_slower) else None,
-        "or_otherwise": recipe.or_otherwise,
+        "otherwise": [*recipe.otherwise],
         **newton,
         "smoother": "in valleys" if recipe.cycle.in_valleys else "by lines",
         "remembers": recipe.cycle.rough,

@@ -8,6 +8,7 @@ import numpy as np
 
 from mgehl.output.result import Work
 from mgehl.output.solution import Solution
+from mgehl.solver.recipe import A_STATE
 
 STARTS = {"down": "film", "up": "contact"}
 
@@ -69,10 +70,10 @@ class Branch:
         for origin, solve in self._ways(speed, last):
             runs[origin] = solve()
             found, first = runs[origin][-1], first or runs[origin][-1]
-            if found.result.settled:
+            if _settled_there(found):
                 break
         else:
-            origin, found = "none", first
+            origin, found = "other start" if first.result.settled else "none", first
         row = self._run("sweep", speed, found, ONE_SWEEP).rows[0]
         solved = [each.result for way in runs.values() for each in way]
         work = Work(sum(each.work.convolutions for each in solved), found.rows[-1]["step"])
@@ -83,7 +84,7 @@ class Branch:
         )  # fmt: skip
         self._study.tell(self._title(speed), result)
         sweep = [row[name] for name in ("e_p", "e_p_lubr", "e_p_solid")]
-        obstacle = "" if first.result.settled else first.result.reason
+        obstacle = "" if _settled_there(first) else first.result.reason
         return Point(speed, self._name, replace(found, result=result), origin, sweep, obstacle)
 
     def _ways(self, speed, last):
@@ -103,7 +104,7 @@ class Branch:
         """Runs from the other start: at a speed where that settles, and from there."""
         beyond, start = (speed / BEYOND, "contact") if self._name == "down" else (speed * BEYOND, "film")
         first = self._run("beyond", beyond, keys={"solver.start": start})
-        return [first, self._run("other start", speed, first)] if first.result.settled else [first]
+        return [first, self._run("other start", speed, first)] if _settled_there(first) else [first]
 
     def _run(self, how, speed, before=None, keys=()):
         """The `Solution` at a speed, from the one `before` if there is one, with some keys set anew."""
@@ -113,3 +114,9 @@ class Branch:
 
     def _title(self, speed):
         return f"{self._config.grid.nodes} nodes, {self._name}, {1e3 * speed:.4g} mm/s"
+
+
+def _settled_there(solution):
+    """Whether a run settled from the start that was asked for; else it is on the other branch."""
+    result = solution.result
+    return result.settled and result.recipe["begins"] in (solution.config.solver.start, A_STATE)

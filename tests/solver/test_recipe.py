@@ -16,6 +16,7 @@ from mgehl.solver.recipe import (
     NONE,
     OF_ROUGH,
     OF_SMOOTH,
+    THICK_FILM,
     TOUCHING,
     UNDER_FILM,
     UNDER_THIN_FILM,
@@ -57,7 +58,8 @@ def test_peaks_decide_grids_and_smoother(recipe, amplitude, law, peaks, in_valle
     assert made.peaks == peaks
     assert (made.cycle.rough, made.cycle.in_valleys) == (peaks != NONE, in_valleys)
     assert made.on_coarse_grids == on_coarse_grids
-    assert made.or_otherwise == (peaks == TOUCHING)
+    shut = (IN_CONTACT,) if law.closes_faces else ()
+    assert made.otherwise == ((DRY, THICK_FILM) if peaks == TOUCHING else shut)
     assert made.newton.over_largest == (peaks != NONE)
 
 

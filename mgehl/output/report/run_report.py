@@ -252,6 +252,8 @@ def _leaves(tree, path=""):
             yield path + name, f"a list of {len(value)}"
         elif name in ("x_nodes", "y_nodes"):
             yield path + name, span(value)
+        elif name == "otherwise":
+            yield path + name, ", then ".join(value) or "nothing"
         elif isinstance(value, bool):
             yield path + name, str(value).lower()
         else:
