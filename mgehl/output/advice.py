@@ -9,7 +9,7 @@ from mgehl.kinds.loaded import lambda_words
 from mgehl.output import surface
 from mgehl.output.resolution import RESOLVED_CELLS
 from mgehl.solver.beginning import NAMES, NOR
-from mgehl.solver.recipe import FULL_FILM, IN_CONTACT, TOUCHING
+from mgehl.solver.recipe import FULL_FILM, IN_CONTACT, OTHER_SIDE, TOUCHING
 from mgehl.solver.verification import LARGEST_EDGE_PRESSURE
 
 MOST = 3
@@ -26,13 +26,10 @@ SHORTER = 10.0
 default it would take a fifth more work, and loses others."""
 
 OTHER = {
-    FULL_FILM: (
-        IN_CONTACT,
-        'solver.start = "contact": from the other side, where the film is thinner than the grid sees',
-    ),
-    IN_CONTACT: (FULL_FILM, 'solver.start = "film": from the other side, where the bodies may come apart'),
+    FULL_FILM: 'solver.start = "contact": from the other side, where the film is thinner than a grid sees',
+    IN_CONTACT: 'solver.start = "film": from the other side, where the bodies may come apart',
 }
-"""The other start by the one of a run, and the advice to try it where the run has not by itself."""
+"""What else to try, by the start of the run."""
 
 
 def what_next(solution):
@@ -62,9 +59,8 @@ def _tries(solution):
         )
     if (result.recipe or {}).get("peaks") == TOUCHING and config.solver.squeeze < SHORTER:
         yield f"solver.squeeze = {SHORTER:g}: shorter time steps, for a fifth more work"
-    other, advice = OTHER[config.solver.start]
-    if other not in (result.recipe or {}).get("otherwise", []):
-        yield advice
+    if OTHER_SIDE[config.solver.start] not in (result.recipe or {}).get("otherwise", []):
+        yield OTHER[config.solver.start]
     if NOR not in result.reason:
         yield "--start-from RUN: from a run at a higher speed that converged; so step by step down"
     steps, work = config.solver.max_steps, config.solver.max_work
@@ -102,7 +98,7 @@ def beside_bands(solution):
     if not contact.is_loaded or solution.is_dry or not solution.result.converged:
         return
     start, begins = config.solver.start, (solution.result.recipe or {}).get("begins")
-    if begins == OTHER[start][0]:
+    if begins == OTHER_SIDE[start]:
         yield f"start: from {NAMES[start]} there was no answer; this one is from {NAMES[begins]}"
     film = 1e-9 * solution.result.central_film_nm
     yield from (f"lambda: {words}" for words in lambda_words(config, film, "the computed"))

@@ -37,6 +37,9 @@ DRY, THICK_FILM = "dry contact", "thick film, slowed down"
 """First guesses: the formula's film, or one that the grid sees, or contact, with smooth bodies' pressure;
 another solution; the dry contact with such a film, nearly none, or no fluid; a film over the peaks."""
 
+OTHER_SIDE = {FULL_FILM: IN_CONTACT, IN_CONTACT: FULL_FILM}
+"""The other one, by the start that is asked for: where two states are answers, that of the other."""
+
 BESIDE_LAYERS = 1.0
 """The formula's film over the layers below which a start takes the dry contact as it is: half the work at
 half a layer; at 1.7 layers it leads nowhere on 257 nodes."""
@@ -146,10 +149,7 @@ def _otherwise(settings, start, guess, touching):
         return tuple(each for each in (DRY, THICK_FILM) if each != guess)
     law = settings.scheme.contact_law
     shuts = law.closes_faces and law.has_contact and settings.method != "relaxation"
-    return OTHER_SIDE.get(start, ()) if shuts else ()
-
-
-OTHER_SIDE = {FULL_FILM: (IN_CONTACT,), IN_CONTACT: (FULL_FILM,)}
+    return (OTHER_SIDE[start],) if shuts and start in OTHER_SIDE else ()
 
 
 def _newton(settings, contact, peaks, in_time):

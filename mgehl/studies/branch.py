@@ -8,7 +8,7 @@ import numpy as np
 
 from mgehl.output.result import Work
 from mgehl.output.solution import Solution
-from mgehl.solver.recipe import A_STATE
+from mgehl.solver.recipe import OTHER_SIDE
 
 STARTS = {"down": "film", "up": "contact"}
 
@@ -118,5 +118,5 @@ class Branch:
 
 def _settled_there(solution):
     """Whether a run settled from the start that was asked for; else it is on the other branch."""
-    result = solution.result
-    return result.settled and result.recipe["begins"] in (solution.config.solver.start, A_STATE)
+    result, start = solution.result, solution.config.solver.start
+    return result.settled and result.recipe["begins"] != OTHER_SIDE[start]
