@@ -120,7 +120,7 @@ def assert_same(directory, solution, steps=0):
 
 
 class TestKills:
-    """SIGKILL, fifteen times at random moments: whenever a line or two have been said, and a while later."""
+    """SIGKILL, fifteen times at random moments: after a line or two were said, and a while later."""
 
     @pytest.mark.parametrize("kills, ranks, seed", [(10, 1, 1), (5, 2, 2)])
     def test_nothing_is_lost(self, uninterrupted, tmp_path, kills, ranks, seed):
