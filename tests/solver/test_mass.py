@@ -5,6 +5,7 @@ import pytest
 from mpi4py import MPI
 from places import ROUGH
 
+import mgehl
 from mgehl.config import load_config
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.kinds import case_of
@@ -39,6 +40,15 @@ def account(problem, state):
 
 def verdict(problem, outcome):
     return summarise(problem, outcome, TOLERANCE, Making(Work(1.0, 1), 1.0, {}))
+
+
+def test_what_flows_in_counts_from_whatever_side_it_comes():
+    """Motion along Y is that along X, turned."""
+    film = {"grid.nodes": 65, "motion.speed": 1.0, "solver.start": "film", "solver.error": False}
+    turned = {"motion.angle": 90.0, "grid.x": (-1.5, 1.5), "grid.y": (-1.9, 1.3)}
+    along, across = (mgehl.solve(mgehl.load(settings=film | more)).result for more in ({}, turned))
+    assert along.mass.carried_in > 2.0 * along.mass.enters > 0.0
+    assert across.mass.carried_in == pytest.approx(along.mass.carried_in, rel=1e-6)
 
 
 def test_a_solved_state_makes_no_oil(solved):
