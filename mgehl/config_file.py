@@ -62,8 +62,8 @@ def read_toml(path):
 
 
 def nested(settings):
-    """The nested values of settings, "section.key=value" each, or a mapping of these or of sections.
-    Raises ConfigError."""
+    """The nested values of settings, "section.key=value" each, or a mapping: of each "section.key" to its
+    value, or of a section to its keys. Raises ConfigError."""
     pairs = _of_mapping(settings) if isinstance(settings, Mapping) else map(_read_setting, settings)
     tables = {}
     for name, value in pairs:

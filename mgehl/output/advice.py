@@ -8,8 +8,9 @@ from mgehl.kinds.heat import heat_words
 from mgehl.kinds.loaded import lambda_words
 from mgehl.output import surface
 from mgehl.output.resolution import RESOLVED_CELLS
-from mgehl.solver.beginning import NAMES, NOR
+from mgehl.solver.beginning import NOR
 from mgehl.solver.recipe import FULL_FILM, IN_CONTACT, OTHER_SIDE, TOUCHING
+from mgehl.solver.recipe_words import NAMES
 from mgehl.solver.verification import LARGEST_EDGE_PRESSURE
 
 MOST = 3

@@ -64,7 +64,7 @@ def account(problem, state, evaluation, inside, unit):
     made = [-grid.sum((evaluation.inflow[(state.status == kind) & inner]).sum()) for kind in KINDS]
     largest = grid.max(np.abs(np.where(inner, evaluation.inflow, 0.0)), initial=0.0)
     through = _through(problem, evaluation, inside)
-    carried_in, _ = _through(problem, evaluation, _of_lines(grid, evaluation.status != BOUNDARY))
+    carried_in, _ = _through(problem, evaluation, _in_domain(grid, evaluation.status != BOUNDARY))
     balance = *(cell * each for each in made), cell * largest, carried_in
     return Mass(*(float(unit * each) for each in (*through, *balance)))
 
@@ -77,10 +77,10 @@ def _hertz_ellipse(problem, evaluation):
     grid, mesh = problem.grid, problem.grid.mesh
     Y = 0.0 if mesh.is_line else mesh.y[0] + mesh.dY * _lines(grid)
     inside = np.broadcast_to(mesh.X[None, :] ** 2 + Y**2 <= 1.0, evaluation.status.shape)
-    return _of_lines(grid, inside)
+    return _in_domain(grid, inside)
 
 
-def _of_lines(grid, nodes):
+def _in_domain(grid, nodes):
     """A ghosted mask without what lies beyond the first and the last line of the domain."""
     return nodes & (_lines(grid) >= 0) & (_lines(grid) < grid.mesh.ny)
 

@@ -38,7 +38,7 @@ DRY, THICK_FILM = "dry contact", "thick film, slowed down"
 another solution; the dry contact with such a film, nearly none, or no fluid; a film over the peaks."""
 
 OTHER_SIDE = {FULL_FILM: IN_CONTACT, IN_CONTACT: FULL_FILM}
-"""The other one, by the start that is asked for: where two states are answers, that of the other."""
+"""The start on the other side of each: where two states are answers, each start leads to its own."""
 
 BESIDE_LAYERS = 1.0
 """The formula's film over the layers below which a start takes the dry contact as it is: half the work at

@@ -36,9 +36,16 @@ BEGINS = {
     UNDER_FILM: "from the dry contact of the peaks, a film laid on it",
     UNDER_THIN_FILM: "from the dry contact of the peaks, nearly no film on it",
     DRY: "from the dry contact of the peaks alone: the film is thinner than the layers",
-    THICK_FILM: "from a film that covers the peaks, slowed down",
     A_STATE: "from another solution",
 }
+
+NAMES = {
+    DRY: "the dry contact without oil",
+    THICK_FILM: "a thick film",
+    FULL_FILM: "a film",
+    IN_CONTACT: "contact",
+}
+"""What is begun from where another start leads nowhere."""
 
 AT_REST = "from the dry contact: the surfaces are at rest"
 """So begins a run in time whose speed rises from nothing."""
@@ -55,7 +62,7 @@ def recipe_words(recipe, is_line, at_rest=False):
     grids = f"coarse grids first{_slower(recipe)}" if recipe.on_coarse_grids else "on the finest grid alone"
     yield f"begins {AT_REST if at_rest else f'{BEGINS[recipe.begins]}, {grids}'}"
     if recipe.otherwise:
-        yield f"where that fails, {', then '.join(BEGINS[each] for each in recipe.otherwise)}"
+        yield f"where that fails, {', then '.join(f'from {NAMES[each]}' for each in recipe.otherwise)}"
     yield _steps(newton)
     memory = "; corrections of one system are remembered for the next" if recipe.cycle.rough else ""
     yield f"smoother: {_smoother(recipe, is_line)}{memory}"

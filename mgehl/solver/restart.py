@@ -10,7 +10,7 @@ from scipy.interpolate import RegularGridInterpolator
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import UserError
 from mgehl.model.own_function import file_and_function
-from mgehl.solver.beginning import begin, first_found
+from mgehl.solver.beginning import OF_A_START, begin, first_found
 from mgehl.solver.continuation import Continuation
 from mgehl.solver.gaps import within_hertz
 from mgehl.solver.nested import single_loop
@@ -19,11 +19,6 @@ from mgehl.solver.recipe import on_mesh, recipe_of
 FORECAST_STEPS = 40
 """Newton steps that a forecast may take before the way from the nearest solution is taken instead: the
 speeds of rough.toml take 8 to 30 on 129 nodes, with the continuation's squeeze a fifth more work."""
-
-OF_A_START = 0.5
-"""Part of the work that is allowed (`solver.max_work`) for the way from another solution. Most points of
-sweeps take 30 to 360 convolutions, near rest without layers up to 1900; a ground ball at 0.35 m/s, from 0.6
-m/s, took 4000 in vain."""
 
 THINNER = 0.5
 """A formula's film over that of a solution below which nothing is the better start. To thicker films a

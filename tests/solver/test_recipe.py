@@ -25,6 +25,7 @@ from mgehl.solver.recipe import (
     on_mesh,
     recipe_of,
 )
+from mgehl.solver.recipe_words import recipe_words
 from mgehl.solver.settings import SolverSettings
 
 CLOSING, CLOSED = BoundaryFilm(1e-6), InterfaceConditions(1e-6)
@@ -94,3 +95,15 @@ def test_a_grid_that_hardly_sees_a_film_begins_alone_from_a_thicker_one(paper_co
     assert made.begins == begins
     assert made.on_coarse_grids == (begins == FULL_FILM)
     assert (made.newton.squeeze > 0.0) == (begins != FULL_FILM)
+
+
+def test_its_words_name_what_else_it_begins_from(recipe):
+    for made, told in (
+        (
+            recipe(4e-6, CLOSING),
+            "where that fails, from the dry contact without oil, then from a thick film",
+        ),
+        (recipe(), "where that fails, from contact"),
+    ):
+        assert told in list(recipe_words(made, is_line=False))
+    assert not any("fails" in words for words in recipe_words(recipe(1e-8, CLOSING), is_line=False))

@@ -7,8 +7,8 @@ from mgehl.config import config_from_tables
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions
 from mgehl.kinds import case_of
 from mgehl.output.advice import beside_bands
-from mgehl.solver.beginning import NAMES
 from mgehl.solver.from_config import set_up
+from mgehl.solver.recipe_words import NAMES
 
 
 def law(**tables):
@@ -27,7 +27,7 @@ def test_the_paper_s_mean_alone_shuts_the_faces_of_contact():
 
 @pytest.mark.parametrize("speed", [15e-3, 1e-3])
 def test_both_starts_find_one_film_that_conserves_oil(speed):
-    """0.3 and 0.06 cells in the inlet on 65 nodes. By shut faces neither start converges."""
+    """0.3 and 0.06 cells in the inlet on 65 nodes."""
     tables = {"motion": {"speed": speed}, "grid": {"nodes": 65}}
     films = []
     for start in ("film", "contact"):
