@@ -1,4 +1,4 @@
-"""The cavitation boundary with the gap held fixed, by line sweeps: no convolution.
+"""The cavitation boundary with the gap held fixed, by line sweeps; one convolution for the gap afterwards.
 
 A Newton step moves the boundary by one layer of nodes only. Where Poiseuille flow dominates, H hardly
 depends on P: flow balance, P >= 0 and fillings below 1 can be solved there at the present gap.
@@ -48,16 +48,21 @@ PASSES = 2
 def relax_cavitation_set(problem, state):
     """Relax pressures, fillings and status of the weakly coupled fluid; return how many nodes changed.
 
-    Updates `state` in place if the set moved and the residual fell; else Newton's values stand. Steps in
-    time would gain nothing.
+    Updates `state` in place, its gap included, if the set moved and the residual fell, at the gap as it was
+    and at the gap under the new pressures; else Newton's values stand. Steps in time would gain nothing.
     """
     if not problem.scheme.cavitation or problem.storage is not None:
         return 0
     relaxed = state.copy()
     moved = _relax(problem, relaxed)
-    if not moved or _residual_of(problem, relaxed) > GAINS * _residual_of(problem, state):
+    most = GAINS * _residual_of(problem, state) if moved else 0.0
+    if not moved or _residual_of(problem, relaxed) > most:
         return 0
-    for name in ("P", "p", "filling", "status"):
+    # Pressures that are low each lift the bodies together: a step from the old gap would not know of it.
+    relaxed.H = problem.gap(relaxed.P, relaxed.H0)
+    if _residual_of(problem, relaxed) > most:
+        return 0
+    for name in ("P", "H", "p", "filling", "status"):
         getattr(state, name)[:] = getattr(relaxed, name)
     return moved
 

@@ -26,10 +26,18 @@ def close_account(task, problem, outcome):
             break
         limits = {"tolerance": FINER * outcome.cycles[-1].residual, "max_steps": STEPS}
         found = solve_near(task, problem, outcome.state.copy(), news, **limits)
+        if not (found.converged or _is_nearer(found.cycles[-1], outcome.cycles[-1])):
+            break
+        outcome = replace(found, converged=True, reason=outcome.reason, begins=outcome.begins)
         if not found.converged:
             break
-        outcome = replace(found, begins=outcome.begins)
     return outcome
+
+
+def _is_nearer(found, before):
+    """Whether rounding alone ended a solve: its last `Cycle` has settled sets, and less is left."""
+    left, was = (max(each.residual, abs(each.load_error)) for each in (found, before))
+    return found.changes.total == 0 and left < was
 
 
 def _makes_oil(problem, state):

@@ -78,6 +78,16 @@ def test_a_relaxation_that_leaves_more_of_the_residual_is_not_taken(film, monkey
     np.testing.assert_array_equal(state.status, spoiled.status)
 
 
+def test_the_gap_after_a_relaxation_is_that_of_its_pressure(film):
+    """A step from the gap as it was would not know by how much low pressures lift the bodies together."""
+    state = film.outcome.state.copy()
+    torn_rim(film, state)
+    before = state.H.copy()
+    assert relax(film.problem, state) > 0
+    assert not np.array_equal(state.H, before)
+    np.testing.assert_array_equal(state.H, film.problem.gap(state.P, state.H0))
+
+
 def test_cavities_that_feed_a_film_hold_what_flows_in(film):
     """Film is torn in the inlet, where the flow fills it again, and nothing is left of what was taken."""
     problem, solved = film.problem, film.outcome.state
