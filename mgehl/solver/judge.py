@@ -1,6 +1,7 @@
 """Whether an iteration has come to its end, and why: looks at a position, changes nothing."""
 
 from dataclasses import dataclass
+from enum import Enum
 from itertools import pairwise
 from math import inf
 
@@ -15,11 +16,24 @@ UNSOLVED = 0.5
 """A linear system counts as unsolved where GMRES leaves more than this part of its residual."""
 
 STUCK = 0.9
-"""A step that leaves more than this part of the least residual so far gained nothing."""
+"""A step that leaves more than this part of the residual gained nothing. After two the cavities are not
+relaxed before the next step: relaxation at a fixed gap and the step might undo each other for ever."""
+
+IDLE_STUCK = 5
+"""Idle steps from which on this is so of films: at wide ellipses' ends sets go in a circle."""
 
 IDLE_CIRCLE = 8
 """Steps that did not lower the residual from which on neighbours change sets in turn, where contact closes
 continuously: without it hardly half of thin-film balls without layers are found; 4 cost rollers 2 %."""
+
+
+class SetsChange(Enum):
+    """How the sets change around a step."""
+
+    AT_REST = "all nodes whose sign is wrong, and cavities come to rest at the present gap before the step"
+    AT_ONCE = "all nodes whose sign is wrong"
+    IN_TURN = "of neighbours the one whose sign is most wrong, after a linear system that is solved finely"
+
 
 IN_TURN_TOLERANCE = 0.01
 """Relative tolerance of GMRES where neighbours change in turn: a few valley nodes make up most of the
@@ -67,10 +81,17 @@ def judge(position, partition, limits):
     return GO_ON
 
 
-def change_in_turn(position, by_film):
-    """Whether the sets go in a circle, so that of neighbours the one changes whose sign is most wrong. Else
-    all do whose sign is. `by_film` says whether contact closes continuously."""
-    return by_film and steps_since_lowered(position) >= IDLE_CIRCLE
+def how_sets_change(position, by_film):
+    """The `SetsChange` around the next step from a position, by what the last steps gained. `by_film` says
+    whether contact closes continuously."""
+    idle = steps_since_lowered(position)
+    if by_film and idle >= IDLE_CIRCLE:
+        return SetsChange.IN_TURN
+    last = [cycle.residual for cycle in position.cycles[-3:]]
+    gained_nothing = len(last) == 3 and min(last[1:]) > STUCK * last[0]
+    if gained_nothing or not by_film and idle >= IDLE_STUCK:
+        return SetsChange.AT_ONCE
+    return SetsChange.AT_REST
 
 
 def steps_since_lowered(position):

@@ -16,7 +16,8 @@ from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.judge import (
     IN_TURN_TOLERANCE,
     UNSOLVED,
-    change_in_turn,
+    SetsChange,
+    how_sets_change,
     judge,
     judge_system,
     judge_work,
@@ -98,8 +99,9 @@ class Newton(PythonSnes):
     def _settle(self):
         """Bring the fluid, its cavities and their pressures to rest at the present gap."""
         problem, state, changes = self._problem, self._position.state, self._position.changes
-        self._in_turn = change_in_turn(self._position, self._settings.by_film)
-        if not self._in_turn:
+        how = how_sets_change(self._position, self._settings.by_film)
+        self._in_turn = how is SetsChange.IN_TURN
+        if how is SetsChange.AT_REST:
             changes.cavitated += relax_cavitation_set(problem, state)
         self._evaluation = problem.march_contents(state, problem.evaluate(state))
         if self._partition.fill(state, changes, self._in_turn):
