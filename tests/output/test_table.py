@@ -24,13 +24,14 @@ def test_bands_are_shown_beside_no_more_digits_than_there_are():
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory):
     directory = tmp_path_factory.mktemp("runs")
+    (directory / "load.csv").write_text("0,50\n1,5000\n")  # what does not change takes no Newton step
     film = ["motion.speed=1 m/s", "solver.start=film", "solver.error=false", "grid.nodes=65"]
     for name, settings in {
         "line": ["contact.kind=line", *film[:3], "grid.nodes=257"],
         "ball": film,
         "dry": ["discretization.contact_model=dry", "grid.nodes=65"],
         "wedge": ["contact.kind=wedge", "motion.speed=1 m/s", "grid.nodes=65"],
-        "time": [*film, "time.end=0.1 ms"],
+        "time": [*film, "time.end=0.1 ms", f"contact.load={directory / 'load.csv'}"],
     }.items():
         words = [f"--set={each}" for each in settings]
         assert main(["run", *words, "--quiet", "--out", str(directory / name)]) == 0
