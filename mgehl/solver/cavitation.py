@@ -55,8 +55,10 @@ def relax_cavitation_set(problem, state):
         return 0
     relaxed = state.copy()
     moved = _relax(problem, relaxed)
-    most = GAINS * _residual_of(problem, state) if moved else 0.0
-    if not moved or _residual_of(problem, relaxed) > most:
+    if not moved:
+        return 0
+    most = GAINS * _residual_of(problem, state)
+    if _residual_of(problem, relaxed) > most:
         return 0
     # Pressures that are low each lift the bodies together: a step from the old gap would not know of it.
     relaxed.H = problem.gap(relaxed.P, relaxed.H0)
