@@ -37,9 +37,9 @@ SWEEPS, QUIET = 1000, 30
 end before pressures have spread across the lines."""
 
 GAINS = 0.25
-"""Part of the residual that a relaxation may leave; with 0.5 thick films on rough balls take twice the work,
-with 1 they walk for ever. Beside the nodes that it brings to rest others may be left with ten times as much,
-and the next step throws the gap. Without any relaxation balls without layers are lost on 257 nodes."""
+"""Part of the residual that a relaxation may leave; with 0.5 thick films on rough balls take twice the
+work, with 1 they walk for ever. Beside the nodes that it brings to rest others may be left with ten times
+as much, and the next step throws the gap. Without any relaxation balls without layers are lost."""
 
 PASSES = 2
 """Set iterations on a line in each sweep; with 1 most take the same steps."""
