@@ -14,7 +14,7 @@ from mgehl.output.summary import summarise
 from mgehl.solver.beginning import begin
 from mgehl.solver.from_config import set_up
 from mgehl.solver.inequality import check_under_contact
-from mgehl.solver.mass import CLOSED, mass_account
+from mgehl.solver.mass import CLOSED, Mass, mass_account
 from mgehl.solver.task import Task
 
 TOLERANCE = 1e-8
@@ -49,6 +49,13 @@ def test_what_flows_in_counts_from_whatever_side_it_comes():
     along, across = (mgehl.solve(mgehl.load(settings=film | more)).result for more in ({}, turned))
     assert along.mass.carried_in > 2.0 * along.mass.enters > 0.0
     assert across.mass.carried_in == pytest.approx(along.mass.carried_in, rel=1e-6)
+
+
+def test_what_is_made_is_told_as_a_part_of_what_enters_the_contact():
+    """It does so where little does of what the surfaces bring: between solids without layers."""
+    by_film = 1e-13
+    slow = Mass(1e-3, 1e-3, by_film, 0.0, 0.0, largest_node=by_film, carried_in=1.0)
+    assert slow.made_share == pytest.approx(1e-10)
 
 
 def test_a_solved_state_makes_no_oil(solved):
