@@ -20,9 +20,10 @@ STUCK = 0.9
 relaxed before the next step: relaxation and step might undo each other. Where they are relaxed all the
 same, a smooth film by the arithmetic mean that closes continuously takes twice the work."""
 
-IDLE_CIRCLE = 8
-"""Steps that did not lower the residual from which on neighbours change sets in turn, where contact closes
-continuously: without it hardly half of thin-film balls without layers are found; 4 cost rollers 2 %."""
+IDLE_CIRCLE = 8.0
+"""Whole steps that did not lower the residual from which on neighbours change sets in turn, where contact
+closes continuously: without it hardly half of thin-film balls without layers are found. A shortened step
+counts for its length: it is on its way, and its residual says little of the sets."""
 
 
 class SetsChange(Enum):
@@ -67,7 +68,7 @@ def judge(position, partition, limits):
         return _never_settling(partition.contradictions(position.state.status), cycle.step)
     if position.stalls == STALLS:
         return Verdict(True, reason=f"{STALLS} linear systems in {cycle.step} steps could not be solved")
-    if not small and steps_since_lowered(position) >= limits.idle_steps:
+    if not small and len(since_lowered(position)) >= limits.idle_steps:
         return Verdict(True, reason=_idle(cycle, limits.idle_steps))
     if limits.spreading_steps and steps_of_spreading(position) >= limits.spreading_steps:
         return Verdict(
@@ -82,7 +83,8 @@ def judge(position, partition, limits):
 def how_sets_change(position, by_film):
     """The `SetsChange` around the next step from a position, by what the last steps gained. `by_film` says
     whether contact closes continuously."""
-    if by_film and steps_since_lowered(position) >= IDLE_CIRCLE:
+    way = sum(cycle.step_length for cycle in since_lowered(position))
+    if by_film and way >= IDLE_CIRCLE:
         return SetsChange.IN_TURN
     last = [cycle.residual for cycle in position.cycles[-3:]]
     gained_nothing = len(last) == 3 and min(last[1:]) > STUCK * last[0]
@@ -91,14 +93,13 @@ def how_sets_change(position, by_film):
     return SetsChange.AT_REST
 
 
-def steps_since_lowered(position):
-    """Steps since the residual was last clearly lower than ever before."""
-    least, since = inf, 0
-    for cycle in position.cycles:
-        since += 1
+def since_lowered(position):
+    """The `Cycle`s since the residual was last clearly lower than ever before."""
+    least, first = inf, 0
+    for number, cycle in enumerate(position.cycles, 1):
         if cycle.residual < STUCK * least:
-            least, since = cycle.residual, 0
-    return since
+            least, first = cycle.residual, number
+    return position.cycles[first:]
 
 
 def steps_of_spreading(position):

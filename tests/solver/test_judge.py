@@ -4,7 +4,18 @@ import numpy as np
 import pytest
 from petsc4py import PETSc
 
-from mgehl.solver.judge import GO_ON, STALLS, Verdict, judge, judge_system, judge_work, steps_since_lowered
+from mgehl.solver.judge import (
+    GO_ON,
+    IDLE_CIRCLE,
+    STALLS,
+    SetsChange,
+    Verdict,
+    how_sets_change,
+    judge,
+    judge_system,
+    judge_work,
+    since_lowered,
+)
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import RESTLESS, Changes, Partition
 from mgehl.solver.position import Position
@@ -101,11 +112,19 @@ class TestIdleSteps:
         """Rounding ends the fall of the residual at some 1e-12: of own steps, then of time steps."""
         ended = solve(paper_contact(1.0), 65, newton={"tolerance": 1e-30}).outcome
         assert not ended.converged and "did not lower it" in ended.reason
-        assert steps_since_lowered(ended) == IDLE_IN_TIME and ended.cycles[-1].step < 80
+        assert len(since_lowered(ended)) == IDLE_IN_TIME and ended.cycles[-1].step < 80
 
     def test_a_user_may_have_more_or_less_patience(self, paper_contact, solve):
         ended = solve(paper_contact(1.0), 65, newton={"tolerance": 1e-30, "idle_steps": 3}).outcome
         assert ended.reason.endswith("the last 3 did not lower it")
+
+
+@pytest.mark.parametrize("length, in_turn", [(1.0, True), (0.9, False)])
+def test_neighbours_change_in_turn_after_whole_steps_in_vain(make_position, length, in_turn):
+    position = make_position(1.0, *int(IDLE_CIRCLE) * [0.95])
+    position.cycles = [replace(each, step_length=length) for each in position.cycles]
+    assert (how_sets_change(position, by_film=True) is SetsChange.IN_TURN) == in_turn
+    assert how_sets_change(position, by_film=False) is SetsChange.AT_ONCE
 
 
 def test_a_step_in_time_need_not_wait_for_sets_that_no_residual_tells_apart(partition, make_position):
