@@ -50,8 +50,10 @@ def missing_share(contact, x, y):
         tuple(round(end / length, 6) for end in pair) for pair, length in zip((x, y), lengths, strict=True)
     ]
     pressure = 12.0 * contact.lubricant.viscosity * contact.speed * lengths[0] / film**2
-    missing = missing_load(*ends, lengths[0] / lengths[1], contact.motion)
-    return min(missing * pressure * lengths[0] * lengths[1] / contact.load, MOST)
+    around = contact.lubricant.ambient_pressure / pressure
+    missing = missing_load(*ends, lengths[0] / lengths[1], contact.motion, around)
+    share = missing * pressure * lengths[0] * lengths[1] / contact.load
+    return max(-MOST, min(share, MOST))
 
 
 def _rigid_film(contact):
@@ -63,21 +65,22 @@ def _rigid_film(contact):
 
 
 @lru_cache(maxsize=64)
-def missing_load(x, y, ratio, motion):
+def missing_load(x, y, ratio, motion, around=0.0):
     """The load missing between ends x and y in units of sqrt(2 R h_0), of a motion in these parts. In units
-    of 12 eta u sqrt(2 R_x h_0)/h_0^2 times both lengths; their `ratio` is that along x to y."""
-    coarse, fine = (_missing_on(step, x, y, ratio, motion) for step in STEPS)
+    of 12 eta u sqrt(2 R_x h_0)/h_0^2, that of the pressure `around`, times both lengths; their `ratio` is
+    that along x to y."""
+    coarse, fine = (_missing_on(step, x, y, ratio, motion, around) for step in STEPS)
     limit = fine + (fine - coarse) / ((STEPS[0] / STEPS[1]) ** 2 - 1.0)
     return limit / (1.0 - 1.0 / FAR)
 
 
-def _missing_on(step, x, y, ratio, motion):
+def _missing_on(step, x, y, ratio, motion, around):
     """The same on one grid."""
     (X, of_x), (Y, of_y) = _nodes(x, step), _nodes(y, step)
     flow = _Reynolds(X, Y, ratio, motion)
     everywhere, domain = (np.zeros((Y.size, X.size), dtype=bool) for _ in range(2))
     everywhere[1:-1, 1:-1] = domain[of_y, of_x] = True
-    return flow.load(everywhere) - flow.load(domain)
+    return flow.load(everywhere, around) - flow.load(domain, around)
 
 
 def _nodes(ends, step):
@@ -91,7 +94,7 @@ def _nodes(ends, step):
 
 
 class _Reynolds:
-    """Finite volumes of a rigid gap h = 1 + x^2 + y^2, whose pressure tears at zero. Between two nodes h
+    """Finite volumes of a rigid gap h = 1 + x^2 + y^2, whose film tears. Between two nodes h
     changes a hundredfold, so a face has the flow of the line between them, by which the pressure of a flow
     q falls by q int h^-3 - int h^-2."""
 
@@ -114,19 +117,20 @@ class _Reynolds:
         along, across = (a * X + b * Y[:, None] for a, b in (motion, (-motion[1], motion[0])))
         self._film = (along < FIRST_TORN * np.hypot(1.0, across)).ravel()
 
-    def load(self, inside):
-        """The integral of p, which is 0 but `inside`, a mask (lines, nx)."""
+    def load(self, inside, around):
+        """The integral of p, which is 0 but `inside`, a mask (lines, nx), and tears at -`around`."""
         inside = inside.ravel()
-        film = self._film & inside
+        film = (self._film | (around > 0.0)) & inside
         for _ in range(SETTLING):
-            p = np.zeros(film.size)
-            p[film] = spsolve(self._matrix[film][:, film], self._gained[film])
+            p = np.where(inside, -around, 0.0)
+            sucked = self._gained - self._matrix @ np.where(film, 0.0, p)
+            p[film] = spsolve(self._matrix[film][:, film], sucked[film])
             net = self._gained - self._matrix @ p
-            torn, fills = film & (p < 0.0), inside & ~film & (net > NOTHING * p.max())
+            torn, fills = film & (p < -around), inside & ~film & (net > NOTHING * p.max())
             if not (torn | fills).any():
                 break
             film = film & ~torn | fills
-        return float(self._area @ np.maximum(p, 0.0))
+        return float(self._area @ np.maximum(p, -around))
 
 
 def _cells(nodes):

@@ -80,6 +80,7 @@ def _rooms(starvation, share, nodes):
     by_load = [(lost / share) ** (1.0 / starvation.order) for lost in starvation.by_load]
     powers = [max(each) for each in zip(*starvation.powers, strict=True)]
     downstream = hertz.a * max(sqrt(2.0 * starvation.dimensionless_film) - 1.0, NEAREST)
+    downstream = max(downstream, min(starvation.way_behind(share), 0.5 * resolved) - hertz.a)
     for_load = min(by_load[0], resolved - downstream - hertz.a) - hertz.a
     upstream = max(hertz.a * NEAREST, hertz.a * starvation.upstream.way(share / powers[0]), for_load)
     if contact.is_plane:

@@ -3,7 +3,8 @@
 Reduced pressure is missing: on the way to the contact it grows by g/(h + g)^3, with the film h and the gap
 g of the dry contact (Grubin's integral from the side on), and the film goes with a power of the part that
 is left. Hamrock and Dowson's boundary m* = 1 + 3.06 [(R_x/b)^2 H]^0.58 costs a ball some 4 %. And load is
-missing, below M = 8, but for what is counted of it (`far_field`). The side downstream takes nothing.
+missing, below M = 8, but for what is counted of it (`far_field`). The side downstream takes nothing where
+film tears at once; where the pressure around holds it together, the suction beyond that side is missing.
 
 The constants were fitted to pairs of solutions on domains of equal cells: good to a factor of two.
 """
@@ -14,6 +15,7 @@ from math import exp, inf, log, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
 from mgehl.model.contact import LoadedContact
 from mgehl.model.drag import kapitza_factor
@@ -115,7 +117,8 @@ class Starvation:
             upstream += powers[0] * self.upstream.missing(room / (side.toward * self.like.hertz.a))
         if rest:
             beside += powers[1] * self.beside.missing(room / self.like.hertz.b)
-        return part * upstream + rest * beside
+        behind = max(-side.toward, 0.0) ** 2 * self.behind(room + side.half)
+        return part * upstream + rest * beside + behind
 
     @cached_property
     def sides(self):
@@ -174,6 +177,33 @@ class Starvation:
         if self.contact.is_plane:
             return LINE_OUTSIDE * share * 2.0 * x, 0.0
         return OUTSIDE * share * 2.0 * pi * sqrt(x * y), OUTSIDE * share * 4.0 * y
+
+    @cached_property
+    def _whole(self):
+        """Metres behind the contact from which on Kapitza's suction is too weak to tear the film; inf
+        where film tears as soon as it is sucked."""
+        like = self.like
+        if not (around := like.lubricant.ambient_pressure):
+            return inf
+        y = inf if self.contact.is_plane else like.radius_y
+        K = kapitza_factor(like.lubricant, like.speed, like.radius_x, y)
+        return (4.0 * K * like.radius_x**2 / around) ** (1.0 / 3.0)
+
+    def behind(self, way):
+        """-ln of the film left without the suction that lies farther behind the contact than `way`, in m:
+        as much as presses upstream; where film is torn, no more than the pressure around."""
+        whole = max(way, self._whole)
+        torn = 1.0 - way / whole
+        torn = 2.0 * torn if self.contact.is_plane else torn * (1.0 - 0.5 * torn)
+        return self.by_load[0] / whole**self.order * (1.0 + torn)
+
+    def way_behind(self, lost):
+        """The way, in m, behind which `behind` is so much; at the least the contact's half-width."""
+        nearest = self.like.hertz.a
+        if self.behind(nearest) <= lost:
+            return nearest
+        farthest = 2.0 * (self.by_load[0] / lost) ** (1.0 / self.order)
+        return brentq(lambda way: self.behind(way) - lost, nearest, farthest)
 
     @property
     def _answer_to_load(self):

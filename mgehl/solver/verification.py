@@ -109,7 +109,8 @@ def _pressure_near_boundary(grid, P):
 
 
 def complementarity_error(problem, state, evaluation):
-    """Largest breach of the conditions that define the partition, in units of P and H.
+    """Largest breach of the conditions that define the partition, in units of P and H; where all
+    gaps are larger, in units of the smallest one.
 
     Lubricated: P >= p_t (if film tears) and H >= 0 (where bodies may touch). Cavitated: P = p_t, H >= 0, no
     more fluid than the gap holds, inflow balanced. Contact: P >= p_t and H = 0, or the boundary film, p_t
@@ -120,11 +121,12 @@ def complementarity_error(problem, state, evaluation):
     cavity, contact = status == CAVITATED, status == CONTACT
     tension = contact | (status == LUBRICATED) if scheme.cavitation else contact
     tears_at = problem.contact.tears_at
+    unit = max(1.0, grid.min(state.H))
     breaches = [
         tears_at - state.P[tension],
         np.abs(state.P[cavity] - tears_at),
-        _out_of_balance(evaluation.inflow[cavity], law) * grid.mesh.dX,
-        (state.filling[cavity] - 1.0) * state.H[cavity],
+        _out_of_balance(evaluation.inflow[cavity], law) * grid.mesh.dX / unit,
+        (state.filling[cavity] - 1.0) * state.H[cavity] / unit,
         np.abs(state.H[contact] - law.contact_gap),
     ]
     if law.closes_faces:

@@ -55,6 +55,16 @@ def test_what_is_missing_and_what_a_rectangle_carries_is_all_of_the_load(x, y):
     assert fine + (fine - coarse) / 3.0 + missing_load(x, y, 1.0, ALONG) == pytest.approx(WHOLE, rel=2e-3)
 
 
+def test_where_no_film_tears_what_is_sucked_is_what_is_pressed():
+    """As much is missing on either side; on one side alone what the other one carries."""
+    torn, whole = 0.0, 1e9
+    assert missing_load((-5.0, 5.0), Y, 1.0, ALONG, whole) == pytest.approx(0.0, abs=1e-9)
+    before, behind = (missing_load(x, Y, 1.0, ALONG, whole) for x in ((-5.0, 2.0), (-2.0, 5.0)))
+    assert before == pytest.approx(-behind, rel=1e-6) and before < 0.0
+    some = [missing_load((-20.0, 2.0), Y, 1.0, ALONG, around) for around in (torn, 1e-3, 1e-2, whole)]
+    assert some == sorted(some, reverse=True) and some[0] == missing_load((-20.0, 2.0), Y, 1.0, ALONG)
+
+
 def test_far_away_it_falls_as_one_over_the_distance():
     """Twice as far the half of it, whatever the shape of the bodies."""
     for ratio in (0.2, 1.0, 2.0):

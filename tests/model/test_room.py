@@ -2,6 +2,7 @@ import pytest
 from contacts import line, moes, starvation
 
 from mgehl.model.room import ALLOWED, NEAREST, PARTS, domain_for
+from mgehl.studies.study import merged
 
 NODES, FARTHEST = 257, 1000.0
 
@@ -44,6 +45,15 @@ def test_most_room_is_where_the_motion_comes_from(angle, side):
     assert abs(upstream) > beside > abs(downstream)
     assert found[1 - axis] == (-beside, beside)
     assert abs(upstream) == -domain({"motion": {"speed": 1.0}})[0][0]
+
+
+def test_oil_that_the_pressure_around_holds_together_has_as_much_room_behind():
+    """Not under a load beside which that pressure is nothing."""
+    held = {"contact": {"ambient_pressure": 1e6}}
+    for light in (moes(3.0, 3.0), line(1e3, 0.05)):
+        upstream, downstream = domain(merged(light, held))[0]
+        assert downstream >= 0.8 * -upstream > 2.0 * domain(light)[0][1]
+    assert domain(merged(line(50e3, 1.0), held))[0] == pytest.approx(domain(line(50e3, 1.0))[0], rel=0.01)
 
 
 def test_a_soft_layer_s_contact_has_room_for_what_is_not_known_of_it():

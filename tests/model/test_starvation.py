@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from contacts import moes, starvation
+from contacts import line, moes, starvation
 
 from mgehl.model.frame import Frame
 from mgehl.model.starvation import Starvation
@@ -45,6 +45,21 @@ def test_a_light_load_that_is_counted_beyond_the_domain_takes_little():
     x, y = (-30.0, 3.0), (-15.0, 15.0)
     counted, within = starvation(moes(5.0, 5.0)).lost(x, y), starvation(WITHIN).lost(x, y)
     assert counted < 0.2 < 2.0 < within
+
+
+@pytest.mark.parametrize("is_line", [False, True])
+def test_the_suction_behind_is_kapitza_s_but_for_what_is_torn(is_line):
+    """Load beyond each distance by quadrature, of a pressure K/x^3, at the most the ambient one."""
+    pressed = line(1e3, 0.05) if is_line else WITHIN
+    held = starvation(merged(pressed, {"contact": {"ambient_pressure": 1e5}}))
+    whole, far = held._whole, np.geomspace(1.0, 1e5, 200_000)
+    for way in (0.3 * whole, 0.9 * whole, 2.0 * whole):
+        r = way * far
+        sucked = np.minimum(r**-3.0, whole**-3.0) * (2.0 if is_line else r)
+        beyond = float(((sucked[1:] + sucked[:-1]) * np.diff(r)).sum()) / 2.0
+        assert held.behind(way) == pytest.approx(held.by_load[0] * beyond, rel=1e-3)
+        assert held.way_behind(held.behind(way)) == pytest.approx(way, rel=1e-9)
+    assert starvation(pressed).behind(0.1 * whole) == 0.0
 
 
 @pytest.mark.parametrize("angle", [30, 90, 135, 180, 200, 270, 315])

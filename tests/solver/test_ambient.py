@@ -73,3 +73,27 @@ def test_who_has_no_use_for_it_says_so(kind):
     else:
         found = load_config(None, ['discretization.contact_model="dry"', "contact.ambient_pressure=1e5"])
         assert "contact.ambient_pressure" in found.unused
+
+
+SEAL = {
+    "contact.kind": "line", "contact.load_per_length": 1000.0, "contact.radius_x": 0.01,
+    "contact.reduced_modulus": 226e9, "contact.ambient_pressure": 1e6, "lubricant.viscosity": 0.05,
+    "motion.speed": 0.05, "grid.x": "auto", "grid.nodes": 513, "solver.start": "film",
+    "solver.error": False,
+}  # fmt: skip
+
+
+def test_the_domain_holds_the_suction_behind_a_light_load():
+    """Film on a domain of its own choice and, by cells as large, on one twice as long; one that ends early
+    starves it."""
+
+    def on(x, nodes):
+        return solve(load_config(None).with_(SEAL | {"grid.x": x, "grid.nodes": nodes}), MPI.COMM_SELF)
+
+    chosen = on("auto", 513)
+    first, last = chosen.config.grid.x
+    wide, short = on([2.0 * first, 2.0 * last], 1025), on([first, 0.05 * last], 513)
+    assert chosen.result.resolution.domain == "sufficient"
+    assert chosen.result.central_film_nm == pytest.approx(wide.result.central_film_nm, rel=3e-3)
+    assert short.result.resolution.domain == "starved"
+    assert short.result.central_film_nm > 1.05 * wide.result.central_film_nm
