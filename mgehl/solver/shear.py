@@ -14,9 +14,9 @@ class Shear:
     """Shear stresses by sliding, (lines, nx) in Pa, and forces in N, of a line contact in N/m."""
 
     film: np.ndarray
-    """Of film, and of cavities as far as they are filled."""
+    """Of film, of cavities as far as they are filled, and of layers by the part of P that oil carries."""
     solids: np.ndarray
-    """Of contact."""
+    """Of contact, by the rest."""
     film_force: float
     solid_force: float
     rolling_force: float
@@ -67,10 +67,10 @@ def friction_difference(problem, one, other):
 
 def film_shear(problem, state):
     """Shear stress of the oil in Pa, (lines, nx): nothing where there is no gap."""
-    contact = problem.contact
+    contact, law = problem.contact, problem.scheme.contact_law
     speed = contact.friction.sliding_speed(contact.speed)
-    tau, gap = np.zeros(state.P.shape), problem.scheme.contact_law.flow_gap(state.H)[0]
-    here = is_fluid(state.status) & (gap > 0.0)
+    tau, gap, part = np.zeros(state.P.shape), law.flow_gap(state.H)[0], _part_of_oil(state, law)
+    here = (part > 0.0) & (gap > 0.0)
     if speed == 0.0 or not here.any():
         return tau
     p_h, oil = contact.pressure_scale, contact.lubricant
@@ -81,7 +81,17 @@ def film_shear(problem, state):
         oil.ambient_pressure + p_h * P, eta, shear_rate=speed / (contact.film_scale * gap[here])
     )
     tau[here] = contact.friction.rheology.shear_stress(at)
-    return np.where(state.status == CAVITATED, state.filling, 1.0) * tau
+    return part * tau
+
+
+def _part_of_oil(state, law):
+    """How much of each node is sheared as oil, 0 to 1, (lines, nx): of contact that lets fluid through what
+    the fluid carries, so that friction does not jump as contact opens."""
+    torn, contact = state.status == CAVITATED, state.status == CONTACT
+    part = np.where(torn, state.filling, is_fluid(state.status).astype(float))
+    if not law.closes_faces:
+        part[contact] = np.clip(state.p[contact] / state.P[contact], 0.0, 1.0)
+    return part
 
 
 def solid_shear(problem, state):

@@ -104,7 +104,23 @@ def test_solids_resist_by_what_they_carry(paper_contact, make_problem, law, carr
     state.status[30, 30], state.P[30, 30], state.p[30, 30], state.H[30, 30] = CONTACT, 0.8, 0.5, 0.0
     stress = solid_shear(problem, state)
     assert stress[30, 30] == pytest.approx(0.1 * carried * problem.contact.hertz.p_h)
-    assert np.count_nonzero(stress) == 1 and film_shear(problem, state)[30, 30] == 0.0
+    assert np.count_nonzero(stress) == 1
+
+
+def test_oil_in_layers_resists_as_their_film_by_the_part_that_it_carries(paper_contact, make_problem):
+    """All of it where contact opens; where contact closes its faces there is none."""
+    friction, layers = (
+        Friction(Limiting(0.05, Eyring(STRESS)), boundary_coefficient=0.1),
+        BoundaryFilm(1e-6),
+    )
+    found = []
+    for law, p in ((layers, 0.5), (layers, 0.8), (CLOSING.contact_law, 0.5)):
+        problem = make_problem(sliding(paper_contact, friction), 65, Scheme(contact_law=law))
+        state = uniform_film(problem)
+        state.status[30, 30], state.P[30, 30], state.p[30, 30] = CONTACT, 0.8, p
+        state.H[30, 30] = law.contact_gap
+        found.append(film_shear(problem, state)[30, 30] / problem.contact.hertz.p_h)
+    assert found == pytest.approx([0.05 * 0.5 * 0.5 / 0.8, 0.05 * 0.8, 0.0])
 
 
 def test_bodies_that_overlap_resist_as_solids(paper_contact, make_problem):
