@@ -4,8 +4,8 @@ Solve a contact at many values of one key, or of several, each point from its ne
 directory for each, one table (sweep.csv), the same as arrays (sweep.nc), curves and a page. A point
 without an answer is said and passed. Values are a list, '50,100,200 N', in SI units where it names none,
 or so many in a range, '1e-4..1 m/s:20', which names its unit. These are of equal ratio where both ends are
-above 0 and more than a decade apart, and else of equal distance; 'log(1..5 m/s:9)' and 'lin(1..50 m/s:9)' choose. The
-first key changes fastest.
+above 0 and more than a decade apart, and else of equal distance; 'log(1..5 m/s:9)' and
+'lin(1..50 m/s:9)' choose. The first key changes fastest.
 
 example: mgehl sweep --set grid.nodes=65 --set solver.start=film --over motion.speed='0.5,1 m/s' --out
     runs/speeds
