@@ -51,6 +51,7 @@ class LoadedKind(Kind):
         section, friction, solids = config.contact, friction_from(config), solids_from(config)
         shared = {"lubricant": lubricant_from(config), "surface": surface.surface_from(config)}
         shared |= {"radius_x": section.radius_x, "reduced_modulus": section.reduced_modulus}
+        shared |= {"tears": config.discretization.cavitation is not False}
         return heated(config, self.pressed(config, shared | {"friction": friction, "solids": solids}))
 
     def pressed(self, config, shared):

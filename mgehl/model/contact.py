@@ -4,7 +4,7 @@ Inside the code X = x/a, P = p/p_h and H = h R_x/a^2 (the paper divides the gap 
 """
 
 from dataclasses import dataclass, replace
-from math import sqrt
+from math import inf, sqrt
 
 import numpy as np
 
@@ -141,11 +141,12 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         """Part of the load that the film in a domain need not carry, its ends in m."""
         return 0.0
 
-    def load_within(self, mesh, there=None):
+    def load_within(self, mesh, there=None, way=1.0):
         """The integral of P that the domain of a mesh takes: the load less what is missing there. Of
-        another load and speed that of the contact `there`, in this one's units  [Liu eq. 50]."""
+        another load and speed that of the contact `there`, in this one's units  [Liu eq. 50]; with a `way`
+        of -1 of one that moves the other way."""
         there = there or self
-        within = 1.0 - there.share_beyond(*self.ends(mesh))
+        within = 1.0 - there.share_beyond(*self.ends(mesh, way))
         return there.load / self.load * self.load_integral * within
 
     def drag_beyond(self, mesh, downstream=False):
@@ -206,10 +207,12 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         """Metres per unit of Y: b."""
         return self.hertz.b
 
-    def ends(self, mesh):
-        """Where the domain of a mesh ends along x and y, two pairs in m."""
+    def ends(self, mesh, way=1.0):
+        """Where the domain of a mesh ends along x and y, two pairs in m; with a `way` of -1 as a motion the
+        other way sees it."""
         (x0, x1), (y0, y1), a, b = mesh.x, mesh.y, self.x_scale, self.y_scale
-        return (x0 * a, x1 * a), (y0 * b, y1 * b)
+        x, y = (x0 * a, x1 * a), (y0 * b, y1 * b)
+        return (x, y) if way > 0.0 else ((-x[1], -x[0]), (-y[1], -y[0]))
 
     def in_its_units(self, x, y):
         """Two pairs in m along x and y, in units of X and Y."""
@@ -224,6 +227,11 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
     def pressure_scale(self):
         """Pascals per unit of P: p_h."""
         return self.hertz.p_h
+
+    @property
+    def held(self):
+        """Pressure around in Pa, above that at which film tears; inf where it never does."""
+        return self.lubricant.ambient_pressure if self.tears else inf
 
     @property
     def tears_at(self):

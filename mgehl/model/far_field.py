@@ -50,8 +50,7 @@ def missing_share(contact, x, y):
         tuple(round(end / length, 6) for end in pair) for pair, length in zip((x, y), lengths, strict=True)
     ]
     pressure = 12.0 * contact.lubricant.viscosity * contact.speed * lengths[0] / film**2
-    around = contact.lubricant.ambient_pressure / pressure
-    missing = missing_load(*ends, lengths[0] / lengths[1], contact.motion, around)
+    missing = missing_load(*ends, lengths[0] / lengths[1], contact.motion, contact.held / pressure)
     share = missing * pressure * lengths[0] * lengths[1] / contact.load
     return max(-MOST, min(share, MOST))
 

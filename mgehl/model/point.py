@@ -59,6 +59,8 @@ class PointContact(LoadedContact):
     """How the surfaces slide over each other."""
     solids: tuple[Solid, Solid] | None = None
     """What both bodies make of heat; None where it is not known."""
+    tears: bool = True
+    """Whether film tears where nothing is left of the pressure around."""
 
     load_integral = LOAD
     contact_area = pi

@@ -205,6 +205,16 @@ class Scene:
         by = (lambda t: abs(self.speed.value(t))), self.load.value
         return sorted({pick(moving or times[:1], key=key) for key in by for pick in (min, max)})
 
+    def sense(self, t):
+        """1; -1 where the surfaces move against the direction of the motion."""
+        return -1.0 if self.speed.value(t) < 0.0 else 1.0
+
+    @property
+    def senses(self):
+        """All that there are in a run."""
+        _, speeds = self._speeds
+        return [-1.0] * (min(speeds) < 0.0) + [1.0] * (max(speeds) >= 0.0)
+
     @property
     def is_steady(self):
         """Whether the speed stays."""

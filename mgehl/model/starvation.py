@@ -183,11 +183,11 @@ class Starvation:
         """Metres behind the contact from which on Kapitza's suction is too weak to tear the film; inf
         where film tears as soon as it is sucked."""
         like = self.like
-        if not (around := like.lubricant.ambient_pressure):
+        if not like.held:
             return inf
         y = inf if self.contact.is_plane else like.radius_y
         K = kapitza_factor(like.lubricant, like.speed, like.radius_x, y)
-        return (4.0 * K * like.radius_x**2 / around) ** (1.0 / 3.0)
+        return (4.0 * K * like.radius_x**2 / like.held) ** (1.0 / 3.0)
 
     def behind(self, way):
         """-ln of the film left without the suction that lies farther behind the contact than `way`, in m:

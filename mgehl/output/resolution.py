@@ -2,6 +2,7 @@
 formula's film alone: `mgehl check` and the run say the same words."""
 
 from dataclasses import dataclass, replace
+from itertools import product
 from math import isfinite, isnan, nan
 
 from mgehl.config import COARSEST_NODES
@@ -128,22 +129,25 @@ def film_lost(contact, mesh, scene=None):
     """Estimate, in per cent, of the film that a domain of twice the size would have more. Of central and
     minimum film the one that changes more; good to a factor of two. Of a `Scene` the most."""
     return max(
-        Starvation(there, there.flooded_film).lost(*there.in_its_units(*contact.ends(mesh)))
-        for there in _instants(contact, scene)
+        Starvation(there, there.flooded_film).lost(*there.in_its_units(*contact.ends(mesh, way)))
+        for there, way in _instants(contact, scene)
     )
 
 
 def load_beyond(contact, mesh, scene=None):
-    """Part of the load, in per cent, that the film in the domain of a mesh need not carry. Of a `Scene` the
-    most that an instant has."""
-    return 100.0 * max(there.share_beyond(*contact.ends(mesh)) for there in _instants(contact, scene))
+    """Part of the load, in per cent, that the film in the domain of a mesh need not carry, below 0 what it
+    carries more. Of a `Scene` the most that an instant has."""
+    return 100.0 * max(
+        (there.share_beyond(*contact.ends(mesh, way)) for there, way in _instants(contact, scene)), key=abs
+    )
 
 
 def _instants(contact, scene):
-    """The contact itself, of a `Scene` those of its extremes, in each of its directions."""
+    """The contact itself, of a `Scene` those of its extremes, in each of its directions; and which way."""
     if scene is None:
-        return [contact]
-    return [there for t in scene.extremes for there in scene.in_all_directions(contact, t)]
+        return [(contact, 1.0)]
+    there = (each for t in scene.extremes for each in scene.in_all_directions(contact, t))
+    return list(product(there, scene.senses))
 
 
 def domain_verdict(lost):
@@ -168,9 +172,11 @@ def domain_words(verdict, lost):
 def beyond_words(percent, at_most=False):
     """How much of the load the film in a domain need not carry, in a list; empty where hardly any.
     `at_most`: of the instants of a run in time."""
-    part = f"{'up to ' if at_most else ''}{percent:.1f} % of it"
+    part = f"{'up to ' if at_most else ''}{abs(percent):.1f} % of it"
     words = f"{part} is carried beyond the domain or lost at its sides, the rest within"
-    return [words] if percent >= 0.05 else []
+    if percent < 0.0:
+        words = f"{part} more is carried within: behind the domain, film that is not torn sucks"
+    return [words] if abs(percent) >= 0.05 else []
 
 
 def peaks_words(contact, mesh):

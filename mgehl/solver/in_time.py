@@ -30,7 +30,7 @@ def march(scene, task, told, start=None):
     problem = task.but(scheme=recipe.scheme).problem()
     if start:
         path = start[0].path
-        problem.turn_to(scene.at(path), scene.instant(scene.framed, 0.0))
+        problem.turn_to(scene.at(path), scene.instant(scene.framed, 0.0), scene.sense(0.0))
         state = begun_in_time(problem, *start)
     else:
         beginning = _at_rest if scene.speed.value(0.0) == 0.0 else _steady

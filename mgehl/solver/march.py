@@ -128,7 +128,7 @@ class March:
     def _turn(self, t, path):
         """Let bodies, load, speed and oil be as they are at a time."""
         scene = self._scene
-        self._problem.turn_to(scene.at(path), scene.instant(scene.framed, t))
+        self._problem.turn_to(scene.at(path), scene.instant(scene.framed, t), scene.sense(t))
 
     def _advance(self, standing):
         """Take one step, halved as often as need be; return its `Instant`, None where it never settles."""

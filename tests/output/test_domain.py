@@ -4,7 +4,8 @@ from contacts import ON_TWICE_THE_DOMAIN, films_on_twice_the_domain
 from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
-from mgehl.output.resolution import film_lost, resolution, resolving_nodes
+from mgehl.kinds.time import scene_of
+from mgehl.output.resolution import beyond_words, film_lost, load_beyond, resolution, resolving_nodes
 
 CASE = {
     "contact": {"load": 250.0, "radius_x": 10e-3, "radius_y": 15e-3}, "motion": {"speed": 3.0},
@@ -40,6 +41,30 @@ def test_the_verdicts_on_films_that_were_solved_on_twice_the_domain_are_right():
         x, y = ((tuple(map(float, row[axis].split(" to "))) if row[axis] else (0.0, 0.0)) for axis in "xy")
         estimate = film_lost(contact, Mesh(65, 65, x, y))
         assert estimate == pytest.approx(float(row["estimated, %"]), abs=0.02)
+
+
+def test_surfaces_that_turn_round_are_judged_either_way(tmp_path):
+    """By the domain before the motion at its end, as a steady motion the other way."""
+    (tmp_path / "speed.csv").write_text("0,3\n1,-3\n")
+    short = {"x": [-6.0, 1.5], "y": [-4.0, 4.0], "load_beyond": True}
+    contact, mesh = contact_and_mesh(**short)
+    settings = {"motion.speed": str(tmp_path / "speed.csv"), "time.end": 1.0}
+    config = config_from_tables(CASE).with_(settings)
+    scene = scene_of(config, contact_from(config))
+    forth, back = (judged(contact.turned(angle), mesh) for angle in (0.0, 180.0))
+    assert judged(contact, mesh, scene) == pytest.approx(back) and back[0] > 2.0 * forth[0]
+
+
+def judged(contact, mesh, scene=None):
+    return film_lost(contact, mesh, scene), load_beyond(contact, mesh, scene)
+
+
+@pytest.mark.parametrize(
+    "percent, said", [(0.04, []), (3.0, "3.0 % of it is"), (-6.19, "6.2 % of it more is")]
+)
+def test_what_lies_beyond_the_domain_is_told_and_what_sucks_there(percent, said):
+    words = beyond_words(percent)
+    assert words == said or words[0].startswith(said)
 
 
 def test_the_recommended_grid_is_the_first_that_resolves():
