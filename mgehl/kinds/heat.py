@@ -87,13 +87,16 @@ def heat_words(config, contact):
     """What shear in the inlet leaves of the film, for an oil known over the temperature or a usual one."""
     if contact.thermal_reduction is not None:
         return  # the run itself tells it, by the oil's own data
-    known = thinning_of(config)
-    beta = THINNING if known is None else known
-    factor, slip = contact.heated_film(beta, CONDUCTIVITY), contact.friction.slide_to_roll
+    oil, slip = contact.lubricant, contact.friction.slide_to_roll
+    beta, k = oil.thermoviscosity or thinning_of(config), oil.conductivity
+    factor = contact.heated_film(beta or THINNING, k or CONDUCTIVITY)
     if factor < WARM and "piezoviscous" in contact.regime:
         left = f"some {100.0 * factor:.2g} %" if factor > LEAST_LEFT else "less than half"
-        usual = f"beta {beta:.2g} 1/K{'' if known else ' and'}"
+        words = {f"beta {beta or THINNING:.2g} 1/K": beta, f"k {k or CONDUCTIVITY:g} W/(m K)": k}
+        given = "".join(f"{each}, " for each, known in words.items() if known)
+        usual = " and ".join(each for each, known in words.items() if not known)
+        data = f"{given}{usual} as is usual" if usual else given.removesuffix(", ")
         yield (
             f"isothermal films: heat by shear in the inlet would leave {left} of them (Gupta 1992; "
-            f"slide-to-roll {slip:g}, {usual}{',' if known else ''} k {CONDUCTIVITY:g} W/(m K) as is usual)"
+            f"slide-to-roll {slip:g}, {data})"
         )

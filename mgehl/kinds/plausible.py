@@ -4,7 +4,7 @@ import numpy as np
 
 from mgehl.kinds.heat import solids_from
 from mgehl.kinds.loaded_checks import LARGEST_CONTACT, on_the_bodies
-from mgehl.kinds.surface_kinds import NAMES, STILL, every_surface
+from mgehl.kinds.surface_kinds import MOVING, NAMES, STILL, every_surface
 from mgehl.kinds.time import begins_at_rest, course, range_of, reference, scene_of
 from mgehl.model.films import formula_of
 from mgehl.model.frame import direction
@@ -205,8 +205,10 @@ def _stands_still(config, contact):
             f"{both}, and roughness that moves changes the film with time: here it stands still, and "
             'friction alone is of this motion; body = "body_1" and time.end move it'
         )
-    elif STILL in bodies:
-        yield f'{both}, but roughness whose body = "still" stands still: "body_1" or "body_2" carry it'
+        return
+    goes = {STILL: "stands still", MOVING: "goes at twice the mean speed"}
+    for body in (each for each in goes if each in bodies):
+        yield f'{both}, but roughness whose body = "{body}" {goes[body]}: "body_1" or "body_2" carry it'
 
 
 def _without_temperatures(config):

@@ -9,6 +9,7 @@ from told import refusal
 from mgehl.config import KEYS, ConfigError, config_from_tables, load_config
 from mgehl.kinds import contact_from
 from mgehl.kinds.derived import EITHER, FOLLOWS, NEEDS
+from mgehl.kinds.heat import heat_words
 from mgehl.model.oils import OILS
 
 STEEL = {"body_1.material": "steel", "body_2.material": "steel"}
@@ -211,3 +212,16 @@ def test_a_dry_contact_has_bodies_and_no_motion():
     dry = {"discretization.contact_model": "dry", "body_1.rotation_radius": 0.1, "body_1.rotation": "1 rpm"}
     config = of(STEEL | dry | {"body_2.speed": 0})
     assert {"body_1.rotation", "motion.speed"} <= config.unused
+
+
+@pytest.mark.parametrize(
+    "known, said",
+    [({"thermoviscosity": 0.01}, "beta 0.01 1/K, k 0.14 W/(m K) as is usual"),
+     ({"conductivity": 0.1}, "k 0.1 W/(m K), beta 0.04 1/K as is usual"),
+     ({}, "beta 0.04 1/K and k 0.14 W/(m K) as is usual")],
+)  # fmt: skip
+def test_heat_of_the_inlet_goes_by_what_the_oil_tells(known, said):
+    """What it does not tell is as is usual, each number alone."""
+    config = of({"motion.speed": 10.0} | {f"lubricant.{name}": value for name, value in known.items()})
+    (words,) = heat_words(config, contact_from(config))
+    assert said in words
