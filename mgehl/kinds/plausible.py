@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mgehl.kinds.bodies import BODIES
 from mgehl.kinds.heat import solids_from
 from mgehl.kinds.loaded_checks import LARGEST_CONTACT, on_the_bodies
 from mgehl.kinds.surface_kinds import MOVING, NAMES, STILL, every_surface
@@ -85,6 +86,7 @@ def implausible(config, contact):
         )
     yield from _films(config, contact)
     yield from _stands_still(config, contact)
+    yield from _turned_axes(config)
     yield from _without_temperatures(config)
     yield from _parts_from_rest(config)
     yield from _odd_steps(config, contact)
@@ -209,6 +211,20 @@ def _stands_still(config, contact):
     goes = {STILL: "stands still", MOVING: "goes at twice the mean speed"}
     for body in (each for each in goes if each in bodies):
         yield f'{both}, but roughness whose body = "{body}" {goes[body]}: "body_1" or "body_2" carry it'
+
+
+def _turned_axes(config):
+    """Rotations that are speeds by the radius along x, of a motion that goes another way."""
+    angle, along_x = reference(config, "motion.angle"), "by the radius along x, though motion.angle is"
+    if angle % 180.0 == 0.0:
+        return
+    for name in BODIES:
+        body = getattr(config, name)
+        is_round = body.diameter is not None or body.radius_x == body.radius_y
+        if body.rotation is not None and body.rotation_radius is None and not is_round:
+            yield f"{name}.rotation is a speed {along_x} {angle:g}: {name}.rotation_radius says by which"
+    if config.motion.ring_rotation is not None:
+        yield f"motion.ring_rotation is a speed {along_x} {angle:g}: bearings roll along x"
 
 
 def _without_temperatures(config):

@@ -215,3 +215,17 @@ def test_heat_of_the_oil_means_nothing_to_a_wedge(key, value):
     settings = {"contact.kind": "wedge", "motion.speed": 1.0, f"lubricant.{key}": value}
     with pytest.raises(ConfigError, match=f"lubricant.{key} = .*: means nothing where contact.kind"):
         load_config(settings=settings)
+
+
+@pytest.mark.parametrize(
+    "angle, more, is_odd",
+    [(90.0, {}, True), (180.0, {}, False), (90.0, {"body_1.rotation_radius": "20 mm"}, False),
+     (90.0, {"body_1.radius_y": "10 mm"}, False)],
+)  # fmt: skip
+def test_a_rotation_about_another_axis_than_the_motion_s_is_named(angle, more, is_odd):
+    """A wheel of 10 by 20 mm that rolls along y has an arm of 20 mm."""
+    wheel = {
+        "body_1.radius_x": "10 mm", "body_1.radius_y": "20 mm", "body_1.rotation": "100 rpm",
+        "body_2.speed": 0.05, "contact.load": 20.0, "motion.angle": angle,
+    }  # fmt: skip
+    assert any("body_1.rotation is a speed" in line for line in odd(wheel | more)) == is_odd
