@@ -14,8 +14,8 @@ from mgehl.solver.recipe import DRY, recipe_in_time
 from mgehl.solver.restart import begun_in_time
 
 AHEAD = 0.1
-"""Part of the tolerance to which the beginning is solved: what its residual drives grows a few times in the
-first steps, which else would have to be solved although nothing changes."""
+"""Part of the tolerance of steps to which the beginning is solved: what its residual drives grows a few
+times in the first ones, which else would have to be solved although nothing changes."""
 
 
 def march(scene, task, told, start=None):
@@ -49,8 +49,8 @@ def march(scene, task, told, start=None):
 
 def _steady(scene, task):
     """The steady problem at the beginning and its `Outcome`, solved beyond what steps are."""
-    newton = task.settings.newton
-    finer = task.but(newton=replace(newton, tolerance=AHEAD * newton.tolerance))
+    newton, steps = task.settings.newton, task.settings.time
+    finer = task.but(newton=replace(newton, tolerance=min(newton.tolerance, AHEAD * steps.least)))
     return begin(replace(finer, contact=scene.instant(task.contact, 0.0)))
 
 

@@ -8,6 +8,9 @@ from mgehl.discretization.axes import own
 from mgehl.discretization.status import CAVITATED, CONTACT, is_fluid, is_solid, open_faces
 from mgehl.model.conditions import Conditions
 
+TINY = 1e-300
+"""No pressure at all: nothing is carried."""
+
 
 @dataclass(frozen=True)
 class Shear:
@@ -69,7 +72,8 @@ def film_shear(problem, state):
     """Shear stress of the oil in Pa, (lines, nx): nothing where there is no gap."""
     contact, law = problem.contact, problem.scheme.contact_law
     speed = contact.friction.sliding_speed(contact.speed)
-    tau, gap, part = np.zeros(state.P.shape), law.flow_gap(state.H)[0], _part_of_oil(state, law)
+    tau, gap = np.zeros(state.P.shape), law.flow_gap(state.H)[0]
+    part = _part_of_oil(state, law, contact.tears_at)
     here = (part > 0.0) & (gap > 0.0)
     if speed == 0.0 or not here.any():
         return tau
@@ -84,13 +88,14 @@ def film_shear(problem, state):
     return part * tau
 
 
-def _part_of_oil(state, law):
+def _part_of_oil(state, law, tears_at):
     """How much of each node is sheared as oil, 0 to 1, (lines, nx): of contact that lets fluid through what
     the fluid carries, so that friction does not jump as contact opens."""
     torn, contact = state.status == CAVITATED, state.status == CONTACT
     part = np.where(torn, state.filling, is_fluid(state.status).astype(float))
     if not law.closes_faces:
-        part[contact] = np.clip(state.p[contact] / state.P[contact], 0.0, 1.0)
+        by_oil, by_both = (each[contact] - tears_at for each in (state.p, state.P))
+        part[contact] = np.clip(by_oil / np.maximum(by_both, TINY), 0.0, 1.0)
     return part
 
 
