@@ -125,15 +125,18 @@ class Scene:
         """Times at which something changes suddenly: a step in time ends there."""
         return *self.speed.kinks(), *self.load.kinks(), *self.angle.kinks()
 
-    def passage(self, share=1.0):
+    def passage(self, share=1.0, angles=None):
         """Way in m of the mean surface on which all heights that move go the length of the Hertz contact
-        under `share` times the load.
+        under `share` times the load: as it is along `angles` in degrees, an array, or the first motion.
 
         A body that is slower than the mean takes longer: before it has passed, a mean is one of the few
         heights that were there.
         """
         shares = [abs(share) for surface, share in self.surfaces if share and self._varies(surface)]
-        return 2.0 * self.framed.under(share).x_scale / min(shares, default=1.0)
+        there, (x, y) = self.contact.under(share), self.contact.motion
+        if angles is not None:
+            x, y = np.cos(np.radians(angles)), np.sin(np.radians(angles))
+        return 2.0 / np.hypot(x / there.x_scale, y / there.y_scale) / min(shares, default=1.0)
 
     def at(self, path):
         """The contact, in the axes in which it is solved, when the mean surface has gone a `path`."""

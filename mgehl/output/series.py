@@ -138,12 +138,15 @@ def passed(rows, scene):
     """Passages that the rows of a history have gone through by the end of each, (rows,)."""
     path = np.array([[row[name] for name in PATH if name in row] for row in rows])
     loads = np.array([row["load_share"] for row in rows])
-    shares, which = np.unique(loads, return_inverse=True)
-    lengths = 1e6 * np.array([scene.passage(share) for share in shares])
+    angles = np.array([row["angle_deg"] for row in rows]) if scene.turns else None
+    lengths = np.empty(len(rows))
+    for share in np.unique(loads):
+        here = loads == share
+        lengths[here] = 1e6 * scene.passage(share, None if angles is None else angles[here])
     # The way goes on from that of another run, if this one started there.
     first = 1e6 * np.linalg.norm(scene.way(0.0, rows[0]["time_s"]))
     ways = np.append(first, np.linalg.norm(np.diff(path, axis=0), axis=1))
-    return np.cumsum(ways / lengths[which])
+    return np.cumsum(ways / lengths)
 
 
 def means(rows, gone):

@@ -31,6 +31,15 @@ def test_a_heavier_load_takes_longer_to_pass():
     assert found.passage(8.0) == pytest.approx(2.0 * found.passage())
 
 
+def test_a_wide_ellipse_takes_longer_to_pass_across():
+    """Along x its short semi-axis, along y the long one, in between a chord."""
+    wide = scene(WAVES | {"contact.radius_y": 0.2})
+    a, b = wide.contact.x_scale, wide.contact.y_scale
+    assert wide.passage() == pytest.approx(2.0 * a)
+    chord = 2.0 * np.sqrt(2.0) / np.hypot(1.0 / a, 1.0 / b)
+    assert wide.passage(1.0, np.array([0.0, 45.0, 90.0])) == pytest.approx([2.0 * a, chord, 2.0 * b])
+
+
 def test_ridges_along_the_motion_do_not_pass():
     ridges = {"surface.kind": "waviness", "surface.amplitude": 1e-8, "surface.wavelength_y": 1e-4}
     found = scene(ridges | {"surface.body": "body_2", "motion.slide_to_roll": 1.0})
