@@ -141,12 +141,12 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         """Part of the load that the film in a domain need not carry, its ends in m."""
         return 0.0
 
-    def load_within(self, mesh, there=None, way=1.0):
+    def load_within(self, mesh, there=None, sense=1.0):
         """The integral of P that the domain of a mesh takes: the load less what is missing there. Of
-        another load and speed that of the contact `there`, in this one's units  [Liu eq. 50]; with a `way`
-        of -1 of one that moves the other way."""
+        another load and speed that of the contact `there`, in this one's units  [Liu eq. 50]; with a
+        `sense` of -1 of one that moves the other way."""
         there = there or self
-        within = 1.0 - there.share_beyond(*self.ends(mesh, way))
+        within = 1.0 - there.share_beyond(*self.ends(mesh, sense))
         return there.load / self.load * self.load_integral * within
 
     def drag_beyond(self, mesh, downstream=False):
@@ -207,12 +207,12 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         """Metres per unit of Y: b."""
         return self.hertz.b
 
-    def ends(self, mesh, way=1.0):
-        """Where the domain of a mesh ends along x and y, two pairs in m; with a `way` of -1 as a motion the
-        other way sees it."""
+    def ends(self, mesh, sense=1.0):
+        """Where the domain of a mesh ends along x and y, two pairs in m; with a `sense` of -1 as a motion
+        the other way sees it."""
         (x0, x1), (y0, y1), a, b = mesh.x, mesh.y, self.x_scale, self.y_scale
         x, y = (x0 * a, x1 * a), (y0 * b, y1 * b)
-        return (x, y) if way > 0.0 else ((-x[1], -x[0]), (-y[1], -y[0]))
+        return (x, y) if sense > 0.0 else ((-x[1], -x[0]), (-y[1], -y[0]))
 
     def in_its_units(self, x, y):
         """Two pairs in m along x and y, in units of X and Y."""

@@ -179,9 +179,9 @@ class Starvation:
         return OUTSIDE * share * 2.0 * pi * sqrt(x * y), OUTSIDE * share * 4.0 * y
 
     @cached_property
-    def _whole(self):
-        """Metres behind the contact from which on Kapitza's suction is too weak to tear the film; inf
-        where film tears as soon as it is sucked."""
+    def torn_until(self):
+        """Metres behind the contact up to which Kapitza's suction tears the film; inf where film tears as
+        soon as it is sucked."""
         like = self.like
         if not like.held:
             return inf
@@ -192,7 +192,7 @@ class Starvation:
     def behind(self, way):
         """-ln of the film left without the suction that lies farther behind the contact than `way`, in m:
         as much as presses upstream; where film is torn, no more than the pressure around."""
-        whole = max(way, self._whole)
+        whole = max(way, self.torn_until)
         torn = 1.0 - way / whole
         torn = 2.0 * torn if self.contact.is_plane else torn * (1.0 - 0.5 * torn)
         return self.by_load[0] / whole**self.order * (1.0 + torn)

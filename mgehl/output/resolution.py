@@ -129,8 +129,8 @@ def film_lost(contact, mesh, scene=None):
     """Estimate, in per cent, of the film that a domain of twice the size would have more. Of central and
     minimum film the one that changes more; good to a factor of two. Of a `Scene` the most."""
     return max(
-        Starvation(there, there.flooded_film).lost(*there.in_its_units(*contact.ends(mesh, way)))
-        for there, way in _instants(contact, scene)
+        Starvation(there, there.flooded_film).lost(*there.in_its_units(*contact.ends(mesh, sense)))
+        for there, sense in _instants(contact, scene)
     )
 
 
@@ -138,12 +138,14 @@ def load_beyond(contact, mesh, scene=None):
     """Part of the load, in per cent, that the film in the domain of a mesh need not carry, below 0 what it
     carries more. Of a `Scene` the most that an instant has."""
     return 100.0 * max(
-        (there.share_beyond(*contact.ends(mesh, way)) for there, way in _instants(contact, scene)), key=abs
+        (there.share_beyond(*contact.ends(mesh, sense)) for there, sense in _instants(contact, scene)),
+        key=abs,
     )
 
 
 def _instants(contact, scene):
-    """The contact itself, of a `Scene` those of its extremes, in each of its directions; and which way."""
+    """Contacts, and the sense of their motion: the contact itself; of a `Scene` those of its extremes, in
+    each direction and either sense."""
     if scene is None:
         return [(contact, 1.0)]
     there = (each for t in scene.extremes for each in scene.in_all_directions(contact, t))

@@ -169,9 +169,9 @@ class ContactProblem(Problem):
         found = contact.surface.height(grid.X * contact.x_scale, grid.Y * contact.y_scale)
         return np.array(np.broadcast_to(found, grid.shape))
 
-    def turn_to(self, surfaces, there, way=1.0):
+    def turn_to(self, surfaces, there, sense=1.0):
         """Take another time's surfaces, of the contact `surfaces`, and load, motion and oil of `there`,
-        which moves the other way with a `way` of -1."""
+        which moves the other way with a `sense` of -1."""
         contact = self.contact
         friction = contact.friction.slowed(there.speed / contact.speed)
         self.flowing = replace(contact.turned(there.angle), lubricant=there.lubricant, friction=friction)
@@ -179,7 +179,7 @@ class ContactProblem(Problem):
             self._undeformed = surfaces.undeformed_gap(self.grid.X, self.grid.Y)
             self.surfaced = surfaces
         self.load_share = there.load / contact.load
-        self._load_within = contact.load_within(self.grid.mesh, there, way)
+        self._load_within = contact.load_within(self.grid.mesh, there, sense)
 
     def moving(self, speed):
         """The same problem, of the contact with the oil and the direction of now, at a `speed` in m/s,

@@ -109,8 +109,8 @@ def _pressure_near_boundary(grid, P):
 
 
 def complementarity_error(problem, state, evaluation):
-    """Largest breach of the conditions that define the partition, in units of P and H; where all
-    gaps are larger, in units of the smallest one.
+    """Largest breach of the conditions that define the partition, in units of P and H. Where every gap is
+    larger than that unit, what flows into cavities and fills them is in units of the smallest gap.
 
     Lubricated: P >= p_t (if film tears) and H >= 0 (where bodies may touch). Cavitated: P = p_t, H >= 0, no
     more fluid than the gap holds, inflow balanced. Contact: P >= p_t and H = 0, or the boundary film, p_t

@@ -52,7 +52,7 @@ def test_the_suction_behind_is_kapitza_s_but_for_what_is_torn(is_line):
     """Load beyond each distance by quadrature, of a pressure K/x^3, at the most the ambient one."""
     pressed = line(1e3, 0.05) if is_line else WITHIN
     held = starvation(merged(pressed, {"contact": {"ambient_pressure": 1e5}}))
-    whole, far = held._whole, np.geomspace(1.0, 1e5, 200_000)
+    whole, far = held.torn_until, np.geomspace(1.0, 1e5, 200_000)
     for way in (0.3 * whole, 0.9 * whole, 2.0 * whole):
         r = way * far
         sucked = np.minimum(r**-3.0, whole**-3.0) * (2.0 if is_line else r)
