@@ -4,7 +4,8 @@ Each takes arrays and returns arrays of the same shape, all in SI units. A law o
 argument, the conditions: at.pressure, at.viscosity, at.pressure_viscosity, at.shear_rate, at.temperature,
 as far as there are any. Viscosity and density come with their derivatives by p, which are compared to
 differences of the values before a run: a slip of the pen is one line, not an iteration that will not
-converge.
+converge. Where p = 0 the viscosity is lubricant.viscosity and the slope of its logarithm
+lubricant.pressure_viscosity, to a tenth: formulas and the domain go by them.
 """
 
 import numpy as np
@@ -29,7 +30,7 @@ def volume(p):
 
 
 def doolittle(at):
-    """lubricant.viscosity_law: eta in Pa s and d eta/dp; `at.viscosity` is lubricant.viscosity."""
+    """lubricant.viscosity_law: eta in Pa s and d eta/dp; alpha is 22.07 1/GPa where p = 0."""
     ratio, slope = volume(at.pressure)
     free = ratio - OCCUPIED
     eta = at.viscosity * np.exp(DOOLITTLE * OCCUPIED * (1.0 / free - 1.0 / (1.0 - OCCUPIED)))

@@ -28,6 +28,10 @@ def slipped(at):
     eta = viscosity * np.exp(pressure_viscosity * p)
     return eta, pressure_viscosity * viscosity
 
+def steeper(at):
+    eta = at.viscosity * np.exp(1.2 * at.pressure_viscosity * at.pressure)
+    return eta, 1.2 * at.pressure_viscosity * eta
+
 def dowson_higginson(at):
     p = at.pressure
     return 1.0 + 0.6e-9 * p / (1.0 + 1.7e-9 * p), 0.6e-9 / (1.0 + 1.7e-9 * p) ** 2
@@ -52,6 +56,7 @@ def laws(tmp_path):
 
 REFUSED = {
     "lubricant.viscosity_law=laws.py:slipped": "its derivative is wrong: d ln(eta)/dp = ",
+    "lubricant.viscosity_law=laws.py:steeper": "d ln(eta)/dp at p = 0 is 2.184e-08 1/Pa; must be lubricant.",
     "lubricant.density_law=laws.py:none": "the file has no function none",
     "contact.surface=laws.py:nowhere": "must be a height in m of at most 0.000411",
     "contact.deformation=laws.py:jump": "as a sum of images",

@@ -61,6 +61,8 @@ def check_own_laws(contact):
     rheology, around = contact.friction.rheology, contact.lubricant.ambient_pressure
     highest = around + CHECKED_PRESSURE * contact.hertz.p_h
     check_own_laws_up_to(contact.lubricant, highest)
+    if isinstance(contact.lubricant.viscosity_law, OwnViscosity):
+        contact.lubricant.viscosity_law.check_alpha(highest)
     if isinstance(rheology, OwnRheology):
         rheology.check(highest, contact.lubricant.viscosity, CHECKED_SHEAR_RATE)
 

@@ -35,6 +35,9 @@ Only an iteration that diverges asks beyond: that ends, or begins anew on a fine
 AMBIENT_TOLERANCE = 1e-3
 """Of a law at p = 0, relative."""
 
+ALPHA_TOLERANCE = 0.1
+"""Of the slope of ln(eta) at p = 0, relative: some 5 % of the film that formulas make of it."""
+
 
 @dataclass(frozen=True)
 class OwnViscosity:
@@ -58,6 +61,16 @@ class OwnViscosity:
         says in the message what the viscosity at p = 0 must be."""
         p = _check_values(self.function, self._law, p_max, self.viscosity, ambient)
         _check_slope(self.function, self._log_law, p, "d ln(eta)/dp")
+
+    def check_alpha(self, p_max):
+        """Raise OwnFunctionError unless the slope of ln(eta) at p = 0 is the pressure-viscosity coefficient,
+        by which formulas, regime, inlet and Moes' numbers go. Up to `p_max` in Pa the law is one."""
+        slope = float(_as_nodes(self._log_law, np.zeros(1))[1][0])
+        if abs(slope - self.pressure_viscosity) > ALPHA_TOLERANCE * self.pressure_viscosity + NO_SLOPE / p_max:
+            raise self.function.error(
+                f"d ln(eta)/dp at p = 0 is {slope:.4g} 1/Pa; must be lubricant.pressure_viscosity, here "
+                f"{self.pressure_viscosity:.4g}, to within a tenth: formulas and the domain go by it"
+            )
 
     def _log_law(self, p):
         """ln(eta*) and d ln(eta*)/dp at `p` in Pa."""
