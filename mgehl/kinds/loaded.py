@@ -236,7 +236,8 @@ def _with_bands(effort):
 def assumptions(contact):
     """What the formulas of a contact assume, a few words each; they know the oil's own viscosity."""
     contact = contact.unheated
-    yield "all: smooth bodies, flooded, isothermal, Newtonian oil"
+    bodies = "smooth bodies" if contact.deformation is None else "smooth half-spaces, not layered"
+    yield f"all: {bodies}, flooded, isothermal, Newtonian oil"
     told = {formula.label: formula for formula in map(formula_of, contact.shown_formulas)}
     yield from (f"{label}: {formula.assumes}" for label, formula in told.items())
     if "elastic" in contact.regime and any(formula.incompressible for formula in told.values()):

@@ -98,7 +98,7 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         return self._density_ratio(self.lubricant)
 
     def _density_ratio(self, oil):
-        return float(oil.density(np.ones((1, 1)), self.hertz.p_h)[0][0, 0])
+        return float(oil.density(np.ones((1, 1)), self.likeness.hertz.p_h)[0][0, 0])
 
     @property
     def compared(self):

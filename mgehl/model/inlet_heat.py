@@ -32,8 +32,8 @@ class InletHeat:
         [Gupta, Cheng, Zhu, Forster, Schrand 1992]
         """
         loading = self.lubricant.cold_viscosity * beta * self.speed**2 / conductivity
-        slip = self.friction.slide_to_roll
-        return films.inlet_heating(self.hertz.p_h / self.reduced_modulus, loading, slip)
+        like, slip = self.likeness, self.friction.slide_to_roll
+        return films.inlet_heating(like.hertz.p_h / like.reduced_modulus, loading, slip)
 
     def heated(self):
         """The same contact with oil so much thinner that the film is thinner by Phi_T; cold at rest."""

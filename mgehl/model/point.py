@@ -229,8 +229,7 @@ class PointContact(LoadedContact):
     @property
     def regime(self):
         """Whether bodies and viscosity answer to the pressure, by Moes' asymptotes."""
-        like = self.aligned
-        return films.regime(*films.point_asymptotes(self.groups, like.radius_x / like.radius_y))
+        return films.regime(*self.asymptotes)
 
     @property
     def _piezoviscous_film(self):

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from mgehl.discretization.mesh import Mesh
+from mgehl.model.coating import Coating
 from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
 from mgehl.model.point import PointContact, radii_along
 
@@ -54,3 +55,14 @@ class TestMotionAtAnAngle:
         radius, _ = radii_along(angle, 12.7e-3, 40e-3)
         W = contact.load / (219.78e9 * radius**2)
         assert contact.groups.W == pytest.approx(W, rel=1e-13)
+
+
+def test_a_coating_as_soft_as_rubber_and_thicker_than_the_contact_counts_in_what_formulas_see():
+    """Its regime, the heat in its inlet and the density in its middle are those of bodies of rubber."""
+    hard, rubber = replace(elliptical(), load=1.0), 5e6
+    coating = Coating(50e-3, rubber, 0.3, None, 0.3, hard.reduced_modulus)
+    coated = replace(hard, deformation=coating)
+    soft = replace(hard, reduced_modulus=2.0 * rubber / (1.0 - 0.3**2))
+    assert hard.regime == "rigid isoviscous" and coated.regime == soft.regime == "elastic isoviscous"
+    assert coated.heated_film(0.04, 0.14) == pytest.approx(soft.heated_film(0.04, 0.14), rel=1e-5)
+    assert coated.density_ratio - 1.0 == pytest.approx(soft.density_ratio - 1.0, rel=1e-3)
