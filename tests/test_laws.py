@@ -56,7 +56,7 @@ def laws(tmp_path):
 
 REFUSED = {
     "lubricant.viscosity_law=laws.py:slipped": "its derivative is wrong: d ln(eta)/dp = ",
-    "lubricant.viscosity_law=laws.py:steeper": "d ln(eta)/dp at p = 0 is 2.184e-08 1/Pa; must be lubricant.",
+    "lubricant.viscosity_law=laws.py:steeper": "d ln(eta)/dp at p = 0 is 2.184e-08 1/Pa; must be ",
     "lubricant.density_law=laws.py:none": "the file has no function none",
     "contact.surface=laws.py:nowhere": "must be a height in m of at most 0.000411",
     "contact.deformation=laws.py:jump": "as a sum of images",

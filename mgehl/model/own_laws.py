@@ -63,16 +63,13 @@ class OwnViscosity:
         _check_slope(self.function, self._log_law, p, "d ln(eta)/dp")
 
     def check_alpha(self, p_max):
-        """Raise OwnFunctionError unless the slope of ln(eta) at p = 0 is the pressure-viscosity coefficient,
-        by which formulas, regime, inlet and Moes' numbers go. Up to `p_max` in Pa the law is one."""
-        slope = float(_as_nodes(self._log_law, np.zeros(1))[1][0])
-        if (
-            abs(slope - self.pressure_viscosity)
-            > ALPHA_TOLERANCE * self.pressure_viscosity + NO_SLOPE / p_max
-        ):
+        """Raise OwnFunctionError unless the slope of ln(eta) at p = 0 is the pressure-viscosity
+        coefficient, by which formulas, regime, inlet and Moes' numbers go; `p_max` in Pa as before."""
+        slope, alpha = float(_as_nodes(self._log_law, np.zeros(1))[1][0]), self.pressure_viscosity
+        if not abs(slope - alpha) <= ALPHA_TOLERANCE * alpha + NO_SLOPE / p_max:
             raise self.function.error(
                 f"d ln(eta)/dp at p = 0 is {slope:.4g} 1/Pa; must be lubricant.pressure_viscosity, here "
-                f"{self.pressure_viscosity:.4g}, to within a tenth: formulas and the domain go by it"
+                f"{alpha:.4g}, to within a tenth: formulas and the domain go by it"
             )
 
     def _log_law(self, p):
