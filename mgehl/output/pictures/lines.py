@@ -105,25 +105,25 @@ def set_axes(axes, lines):
     """Limits for some `CentreLine`s, of each column of axes: what is loaded is shown, and films inside the
     dry contact can be read, on a logarithmic axis where they differ much. It begins below 0 only where
     bodies overlap."""
-    lines, columns = [line for column in lines for line in column], lines
+    columns, lines = lines, [line for column in lines for line in column]
     for inside in INSIDE:
         films = [line.film[(np.abs(line.X) < inside) & (line.status != CONTACT)] for line in lines]
         films, room = np.concatenate(films), INSIDE[inside]
         if (films > 0.0).any():
             break
-    least, top = min(line.film.min() for line in lines), films.max(initial=1e-3)
+    thinnest, top = min(line.film.min() for line in lines), films.max(initial=1e-3)
     low = max(films[films > 0.0].min(initial=top), top / DECADES)
     for (pressures, below), column in zip(axes.T, columns, strict=True):
-        least = 1.1 * min(line.P.min() for line in lines)  # below 0 under an ambient pressure
-        pressures.set_ylim(least, 1.1 * max(line.P.max() for line in lines))
+        lowest = 1.1 * min(line.P.min() for line in lines)  # below 0 under an ambient pressure
+        pressures.set_ylim(lowest, 1.1 * max(line.P.max() for line in lines))
         pressures.sharex(below)
         pressures.tick_params(labelbottom=False)
         below.set_xlim(*_loaded(column))
-        if top > LINEAR * low and least > -low:
+        if top > LINEAR * low and thinnest > -low:
             below.set(yscale="log", ylim=(low / 2.0, room**2 * top))
             below.yaxis.set_major_formatter("{x:g}")
         else:
-            below.set_ylim(min(0.0, 1.1 * least), room * top)
+            below.set_ylim(min(0.0, 1.1 * thinnest), room * top)
 
 
 def _loaded(lines):

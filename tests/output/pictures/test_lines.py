@@ -42,6 +42,20 @@ def test_suction_behind_a_contact_under_pressure_is_seen(make_solution, drawn):
     assert low < 1e-9 * solution.pressure.min() < 0.0
 
 
+@pytest.mark.parametrize("suction", [0.0, -0.2])
+def test_bodies_that_overlap_are_seen_below_nothing(make_solution, drawn, suction):
+    """Deeper than the film is thick, on one node; elsewhere it differs by decades, with suction or without.
+    """
+    solution = make_solution()
+    i, j = solution.mesh.nearest(0.0, 0.0)
+    solution.fields.P[j, i + 3] = suction
+    solution.fields.H[j] *= 1.0 + 1e3 * np.abs(solution.mesh.X)
+    assert drawn(centre_lines, solution).axes[2].get_yscale() == "log"
+    solution.fields.H[j, i - 1] = -2.0 * solution.fields.H[j].min()
+    low, _ = drawn(centre_lines, solution).axes[2].get_ylim()
+    assert low < 1e9 * solution.film.min() < 0.0
+
+
 def test_what_carries_load_is_shown_beside_a_smooth_dry_contact(make_solution, drawn):
     """Of a domain of 60 semi-axes a side; and Hertz's pressure is no polygon of few nodes."""
     solution = make_solution(settings=["grid.x=[-60,60]"])
