@@ -80,9 +80,9 @@ class Config:
 
     @property
     def physics(self):
-        """{"section.key": (value, unit)} of the numbers that make this contact."""
-        units = {key: KEYS[key].metadata["unit"] for key in self.kind.essential if key not in self.unused}
-        return {key: (self.value(key), unit) for key, unit in units.items() if unit is not None}
+        """Keys of the numbers that make this contact."""
+        used = (key for key in self.kind.essential if key not in self.unused)
+        return [key for key in used if KEYS[key].metadata["unit"] is not None]
 
     @property
     def derived(self):
@@ -106,8 +106,7 @@ class Config:
     @property
     def inputs(self):
         """{"section.key": value} of the numbers that make this contact, given or derived."""
-        found = {each.key: self.value(each.key) for each in self.derived}
-        return {key: value for key, (value, _) in self.physics.items()} | found
+        return {key: self.value(key) for key in (*self.physics, *(each.key for each in self.derived))}
 
     def with_numbers(self, numbers):
         """The same with other numbers, {"section.key": value}, for what is derived: as a run had them,

@@ -11,10 +11,10 @@ NARROWEST = 20
 """Columns of text that are left beside an indent, on however narrow a terminal."""
 
 
-def say(*words, sep=" "):
+def say(*words):
     """Print to standard output, at once; into nothing where it is closed, or its device full."""
     try:
-        print(*words, sep=sep, flush=True)
+        print(*words, flush=True)
     except (OSError, ValueError):
         silence(sys.stdout)
 

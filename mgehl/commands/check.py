@@ -105,12 +105,11 @@ def _inlet(case):
     start, shuts = config.solver.start, scheme_from(config, contact).contact_law.closes_faces
     expected = resolution.expectation(grids[-1].cells, start, contact.is_mixed, shuts)
     yield f"expected   from a {start} start, {expected}"
-    lost = resolution.film_lost(contact, mesh, scene)
-    on_domain = resolution.domain_words(resolution.domain_verdict(lost), lost)
+    on_domain = resolution.domain_words(found.domain, found.domain_loss_percent)
     peaks = resolution.peaks_words(contact, mesh)
     yield from _under("domain", [resolution.room_words(mesh), on_domain, *peaks])
-    beyond = resolution.load_beyond(contact, mesh, scene), scene is not None
-    yield from (f"load       {words}" for words in resolution.beyond_words(*beyond))
+    beyond = resolution.beyond_words(found.load_beyond_percent, at_most=scene is not None)
+    yield from (f"load       {words}" for words in beyond)
     needed = resolution.resolving_nodes(contact, mesh, scene)
     verdict = "this grid does" if needed <= config.grid.nodes else f"recommended: grid.nodes={needed}"
     if needed > LARGEST_NODES:

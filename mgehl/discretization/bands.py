@@ -31,6 +31,11 @@ def distributive_nodes(eps, rows, dX, K00):
     return (stiff | (rows == GAP)) & (rows != PRESSURE)
 
 
+def influence_of_neighbours(K, line, node):
+    """Of a node's four neighbours together."""
+    return K[line, abs(node - 1)] + K[line, node + 1] + K[abs(line - 1), node] + K[line + 1, node]
+
+
 def influence_of_columns(K, share):
     """Table kappa[d, l, k]: deflection k nodes along and l lines beside a column of Q.
 
@@ -42,8 +47,7 @@ def influence_of_columns(K, share):
     kappa = np.zeros((2, LINES_BESIDE + 1, REACH + 3))
     for line in range(LINES_BESIDE + 1):
         for k in range(REACH + 1):
-            neighbours = K[line, abs(k - 1)] + K[line, k + 1] + K[abs(line - 1), k] + K[line + 1, k]
-            kappa[:, line, k] = K[line, k], K[line, k] - share * neighbours
+            kappa[:, line, k] = K[line, k], K[line, k] - share * influence_of_neighbours(K, line, k)
     kappa[:, :, REACH + 1 :] = kappa[:, :, REACH : REACH + 1]
     return kappa
 

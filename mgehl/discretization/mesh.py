@@ -69,6 +69,7 @@ class Mesh:
         nx, ny = frame.pair(self.nx, self.ny)
         return replace(self, nx=nx, ny=ny, x=x, y=y, k_e=1.0 / self.k_e if frame.exchanged else self.k_e)
 
-    def nearest(self, X, Y):
-        """Indices (i, j) of the node nearest to a point."""
-        return int(np.abs(self.X - X).argmin()), int(np.abs(self.Y - Y).argmin())
+    @property
+    def centre(self):
+        """Indices (i, j) of the node nearest to the centre of the contact."""
+        return int(np.abs(self.X).argmin()), int(np.abs(self.Y).argmin())

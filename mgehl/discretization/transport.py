@@ -34,10 +34,7 @@ def passing(m, cells):
     the ends the content goes on along a straight line."""
     if cells < 0.0:
         return -passing(m[..., ::-1], -cells)[..., ::-1]
-    whole = int(cells)
-    part = cells - whole
-    if part > 1.0 - 1e-12:
-        whole, part = whole + 1, 0.0
+    whole, part = _split(cells)
     room = whole + 3
     beyond = [(0, 0)] * (m.ndim - 1) + [(room, 3)]
     wide = np.maximum(np.pad(m, beyond, mode="reflect", reflect_type="odd"), 0.0)
@@ -47,6 +44,13 @@ def passing(m, cells):
     faces = np.arange(room, room + m.shape[-1] + 1)
     found = total[..., faces] - total[..., faces - whole]
     return found + _last_part(wide, faces - whole - 1, part) if part > 0.0 else found
+
+
+def _split(cells):
+    """Whole cells and the part of another one."""
+    whole = int(cells)
+    part = cells - whole
+    return (whole + 1, 0.0) if part > 1.0 - 1e-12 else (whole, part)
 
 
 def _last_part(m, cells, part):
@@ -69,10 +73,7 @@ def moved(values, cells):
     least, and exact by whole cells. They go on as they end. A difference of flows stays one."""
     if cells < 0.0:
         return moved(values[..., ::-1], -cells)[..., ::-1]
-    whole = int(cells)
-    part = cells - whole
-    if part > 1.0 - 1e-12:
-        whole, part = whole + 1, 0.0
+    whole, part = _split(cells)
     n = values.shape[-1]
     wide = np.pad(values, [(0, 0)] * (values.ndim - 1) + [(whole + 2, 1)], mode="edge")
     if part == 0.0:

@@ -38,11 +38,6 @@ def linear_solve():
         yield
 
 
-def start_logging():
-    """Have PETSc keep times, from now on and until the program ends."""
-    PETSc.Log.begin()
-
-
 def seconds_by_part():
     """Seconds that this rank has spent in each of `PARTS`, and as "Krylov" in the rest of linear solves."""
     inside = {part: _seconds(name, _linear_stage.id) for part, name in PARTS.items()}

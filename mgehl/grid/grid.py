@@ -208,11 +208,17 @@ def single_grid(mesh, comm):
     return build_grids(mesh, mesh.nx, comm)[0]
 
 
+def meshes_of(mesh, coarsest_nodes):
+    """Meshes from the coarsest to `mesh`, each of every other node of the next."""
+    meshes = [mesh]
+    while meshes[0].nx > coarsest_nodes and meshes[0].nx % 2 and meshes[0].ny % 2:
+        meshes.insert(0, meshes[0].coarsened())
+    return meshes
+
+
 def build_grids(mesh, coarsest_nodes, comm):
     """Grids from the coarsest to `mesh`, each of every other node of the next. A coarse line belongs to the
     rank of the same fine line, so transfers need ghost lines only; fewer ranks share one of few lines."""
-    meshes = [mesh]
-    while meshes[-1].nx > coarsest_nodes and meshes[-1].nx % 2 and meshes[-1].ny % 2:
-        meshes.append(meshes[-1].coarsened())
-    starts = ownerships(mesh.ny, len(meshes), comm.size)
-    return [Grid(*each, comm) for each in zip(meshes, starts, strict=True)][::-1]
+    meshes = meshes_of(mesh, coarsest_nodes)
+    starts = ownerships(mesh.ny, len(meshes), comm.size)[::-1]
+    return [Grid(*each, comm) for each in zip(meshes, starts, strict=True)]

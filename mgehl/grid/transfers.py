@@ -61,13 +61,9 @@ class Transfer:
     @event(TRANSFERS)
     def bilinear(self, coarse):
         """Bilinear interpolation to the fine grid."""
-        ghosted = self._ranks.spread(coarse)
+        ghosted, fine, between = self._begun(coarse)
         # Coarse lines that bracket the local odd ones; an odd first line needs the ghost before.
         lines = ghosted[HALO - self._odd :]
-        fine = np.empty(self.fine.shape)
-        even, odd = self._odd, 1 - self._odd
-        fine[even::2, ::2] = own(ghosted)
-        between = fine[odd::2, ::2]
         between[:] = 0.5 * (lines[: len(between)] + lines[1 : len(between) + 1])
         fine[:, 1::2] = 0.5 * (fine[:, :-2:2] + fine[:, 2::2])
         return fine
@@ -75,17 +71,19 @@ class Transfer:
     @event(TRANSFERS)
     def cubic(self, coarse):
         """Cubic interpolation of a pressure to the fine grid, bilinear beside nodes that have none."""
-        ghosted = self._ranks.spread(coarse)
-        fine = np.empty(self.fine.shape)
-        even, odd = self._odd, 1 - self._odd
-        fine[even::2, ::2] = own(ghosted)
-        between = fine[odd::2, ::2]
+        ghosted, fine, between = self._begun(coarse)
         first, count = HALO - self._odd - 1, len(between)
         between[:] = _midway(*(ghosted[k : k + count] for k in range(first, first + 4)))
         columns = np.pad(fine[:, ::2], ((0, 0), (1, 1)))
         cells = self.coarse.mesh.nx - 1
         fine[:, 1::2] = _midway(*(columns[:, k : k + cells] for k in range(4)))
         return fine
+
+    def _begun(self, coarse):
+        """Coarse values ghosted, the fine array with those that both grids have, and its lines between."""
+        ghosted, fine = self._ranks.spread(coarse), np.empty(self.fine.shape)
+        fine[self._odd :: 2, ::2] = own(ghosted)
+        return ghosted, fine, fine[1 - self._odd :: 2, ::2]
 
 
 class PartitionedTransfer:

@@ -34,8 +34,8 @@ class Kind:
     """As in "a point contact"."""
     about: str
     """A sentence for the head of a new configuration."""
-    model: type
-    """Class of the contact."""
+    is_loaded: bool
+    """True where bodies are pressed together by a load, False where the gap is given."""
     takes: tuple
     """Sections ("motion") and keys ("motion.speed") that it uses; any other one is a mistake."""
     essential: dict
@@ -46,11 +46,6 @@ class Kind:
     """What its fields are called: words before the noun."""
     cavitates = True
     """Whether its film tears where `discretization.cavitation` is not set."""
-
-    @property
-    def is_loaded(self):
-        """True where bodies are pressed together by a load, False where the gap is given."""
-        return self.model.is_loaded
 
     def check_keys(self, config):
         """Raise ConfigError where values contradict each other."""

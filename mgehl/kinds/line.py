@@ -13,7 +13,7 @@ EFFORT = Effort(70.0, 3e-7, 5e-3, 2500.0, "line contacts on 1025 to 16385 nodes 
 class LineKind(LoadedKind):
     """A cylinder on a flat, pressed by a force per length."""
 
-    name, noun, model = "line", "line contact", LineContact
+    name, noun = "line", "line contact"
     about = "A lubricated line contact: a cylinder on a flat, per length."
     load_key, load_unit = "contact.load_per_length", "N/m"
     takes = (

@@ -34,6 +34,7 @@ BANDS, BANDS_WORDS = 10.0, "bands 2 to 23 more"
 class LoadedKind(Kind):
     """A contact whose film and pressure answer to a load."""
 
+    is_loaded = True
     load_key: str
     """The key of the load."""
     load_unit: str

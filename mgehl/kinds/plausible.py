@@ -85,7 +85,7 @@ def implausible(config, contact):
             "look at viscosity and pressure_viscosity"
         )
     yield from _films(config, contact)
-    yield from _stands_still(config, contact)
+    yield from _stands_still(config)
     yield from _turned_axes(config)
     yield from _without_temperatures(config)
     yield from _parts_from_rest(config)
@@ -193,7 +193,7 @@ def _films(config, contact):
         )
 
 
-def _stands_still(config, contact):
+def _stands_still(config):
     """Roughness that stands still on a body that moves."""
     motion, slide = config.motion, config.inputs.get("motion.slide_to_roll", config.motion.slide_to_roll)
     moves = slide not in (None, 2.0, -2.0) or motion.ring_rotation is not None

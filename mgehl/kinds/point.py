@@ -60,7 +60,7 @@ def point_choices(tables):
 class PointKind(LoadedKind):
     """A paraboloid on a flat, pressed by a force."""
 
-    name, noun, model = "point", "point contact", PointContact
+    name, noun = "point", "point contact"
     about = "A lubricated point contact: a ball or an ellipsoid on a flat."
     load_key, load_unit = "contact.load", "N"
     takes = (

@@ -104,7 +104,7 @@ def wedge_choices(tables):
 class WedgeKind(Kind):
     """A pad whose gap is given: no load, no elasticity; constant viscosity and density, or laws of them."""
 
-    name, noun, model = "wedge", "wedge bearing", WedgeBearing
+    name, noun, is_loaded = "wedge", "wedge bearing", False
     about = "A rigid wedge bearing, with a pillar, a pocket or a blocked exit in its film."
     takes = (
         "wedge", "lubricant", "motion.speed", "grid.nodes", "discretization.couette",

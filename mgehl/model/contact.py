@@ -98,7 +98,7 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         return self._density_ratio(self.lubricant)
 
     def _density_ratio(self, oil):
-        return float(oil.density(np.ones((1, 1)), self.likeness.hertz.p_h)[0][0, 0])
+        return float(oil.density(np.ones((1, 1)), self.in_formulas.hertz.p_h)[0][0, 0])
 
     @property
     def compared(self):
@@ -173,6 +173,11 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
     def likeness(self):
         """The half-spaces with axes along and across the motion that formulas know, in contact as wide."""
         return self
+
+    @property
+    def in_formulas(self):
+        """The same as far as it is known where results are read, which runs no function of the user's."""
+        return self.likeness
 
     def in_frame(self, frame):
         """The same contact, described in a `Frame`."""

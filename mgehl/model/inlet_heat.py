@@ -32,7 +32,7 @@ class InletHeat:
         [Gupta, Cheng, Zhu, Forster, Schrand 1992]
         """
         loading = self.lubricant.cold_viscosity * beta * self.speed**2 / conductivity
-        like, slip = self.likeness, self.friction.slide_to_roll
+        like, slip = self.in_formulas, self.friction.slide_to_roll
         return films.inlet_heating(like.hertz.p_h / like.reduced_modulus, loading, slip)
 
     def heated(self):

@@ -229,7 +229,13 @@ class PointContact(LoadedContact):
     @property
     def regime(self):
         """Whether bodies and viscosity answer to the pressure, by Moes' asymptotes."""
-        return films.regime(*self.asymptotes)
+        like = self.in_formulas
+        return films.regime(*films.point_asymptotes(like.groups, like.radius_x / like.radius_y))
+
+    @property
+    def in_formulas(self):
+        """As of any contact; a deformation of the user's own counts as none."""
+        return self.aligned if isinstance(self.deformation, OwnCompliance) else self.likeness
 
     @property
     def _piezoviscous_film(self):

@@ -7,7 +7,8 @@ see. What decides it is nearby: channels out of it, and how its bed gives way. T
 import numpy as np
 from petsc4py import PETSc
 
-from mgehl.discretization.mesh import HALO
+from mgehl.discretization.bands import influence_of_neighbours
+from mgehl.discretization.residual import shifted
 from mgehl.grid.events import NEARBY, event
 from mgehl.multigrid.options import OF_NEARBY_NODES, by_default
 from mgehl.multigrid.stencil_matrix import StencilMatrix
@@ -96,7 +97,7 @@ class NearColumns:
         places = np.abs(NEAR)
         self._share, self._beside = share, places.sum(axis=1)
         self._single = np.array([K[tuple(at)] for at in places])
-        self._around = np.array([_around(K, *at) for at in places])
+        self._around = np.array([influence_of_neighbours(K, *at) for at in places])
 
     def stencils(self, distributive, free):
         """Of Q and of N, (9, ...), for masks (9, ...) of the nodes around each, in the order of `NEAR`.
@@ -113,16 +114,9 @@ class NearColumns:
         return Q, (single + around * spread) * free
 
 
-def _around(K, line, node):
-    """Influence of a node's four neighbours together."""
-    return K[abs(line - 1), node] + K[line + 1, node] + K[line, abs(node - 1)] + K[line, node + 1]
-
-
 def _beside(ghosted):
     """Of every node and those around it, (9, lines, nx), in the order of `NEAR`; 0 outside the domain."""
-    padded = np.pad(ghosted.astype(float), ((0, 0), (1, 1)))
-    lines, nx = len(ghosted) - 2 * HALO, ghosted.shape[1]
-    return np.stack([padded[HALO + line :][:lines, 1 + node :][:, :nx] for line, node in NEAR])
+    return np.stack([shifted(ghosted.astype(float), offset) for offset in NEAR])
 
 
 def _direct_solver(matrix):

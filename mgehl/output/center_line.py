@@ -11,7 +11,7 @@ def center_line(mesh, fields):
     The ambient pressure acts at the edge of the pad, not at the node half a cell outside, which is
     moved there; where that node is solid, the exit is blocked and the line ends at the last fluid.
     """
-    _, j = mesh.nearest(0.0, 0.0)
+    _, j = mesh.centre
     X, P = mesh.X.copy(), fields.P[j].copy()
     X[[0, -1]] = mesh.edges
     solid = fields.status[j] == CONTACT

@@ -19,7 +19,7 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.errors import UserError
 from mgehl.grid.convolution import Deflection
 from mgehl.grid.freed_memory import is_large
-from mgehl.grid.grid import single_grid
+from mgehl.grid.grid import meshes_of, single_grid
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.time import scene_of
 from mgehl.model.deformation import HalfPlane, HalfSpace
@@ -109,20 +109,12 @@ def inlet_grids(case):
     parts, scene = set_up(case), case.scene if case.config.is_in_time else None
     # In the axes of the solve, whose X may be the user's y: other cells, other speeds.
     settings = on_mesh(parts.settings, parts.contact, parts.mesh)
-    solves = planned_solves(_with_coarser(parts.mesh), parts.contact, settings)
+    solves = planned_solves(meshes_of(parts.mesh, COARSEST_NODES), parts.contact, settings)
     speeds = {level: solve.speed for level, solve, _ in solves}
     return [
         InletGrid(mesh.nx, inlet_cells(case.contact, mesh, scene), speeds.get(level))
-        for level, mesh in enumerate(_with_coarser(case.mesh))
+        for level, mesh in enumerate(meshes_of(case.mesh, COARSEST_NODES))
     ]
-
-
-def _with_coarser(mesh):
-    """The meshes of a hierarchy, coarsest first."""
-    meshes = [mesh]
-    while meshes[0].nx > COARSEST_NODES:
-        meshes.insert(0, meshes[0].coarsened())
-    return meshes
 
 
 def forecast(config, contact, mesh, ranks):

@@ -11,7 +11,7 @@ MOLECULE = 0.5
 def mixed_lines(mixed):
     """Film and contact of rough bodies: what carries the load, on which area, how wide the gap is and how
     thick the film."""
-    patches = counted(mixed.patches, "patch", "patches")
+    patches = _counted(mixed.patches)
     unit = mixed.area_unit.replace("µm²", "um^2")
     largest = f", the largest {1e12 * mixed.largest_patch_m2:.4g} {unit}" if mixed.patches else ""
     return [
@@ -110,14 +110,14 @@ def mixed_note(mixed):
     where = "no contact" if not mixed.patches else (
         f"contact carries {100 * mixed.contact_load_share:.1f} % "
         f"of the load on {100 * mixed.contact_area_over_hertz:.1f} % of the Hertz area, in "
-        f"{counted(mixed.patches, 'patch', 'patches')}"
+        f"{_counted(mixed.patches)}"
     )  # fmt: skip
     return f"lambda {_known(mixed.lambda_ratio)}, {where}{gap}"
 
 
-def counted(number, one, more):
-    """A number of things, by their name in the singular or the plural."""
-    return f"{number} {one if number == 1 else more}"
+def _counted(patches):
+    """A number of patches."""
+    return f"{patches} {'patch' if patches == 1 else 'patches'}"
 
 
 def _known(value):

@@ -103,10 +103,8 @@ def inlet_words(resolution, advice):
 
 def resolving_nodes(contact, mesh, scene=None):
     """Nodes along each side, 2^k + 1, that give the inlet `RESOLVED_CELLS` on the domain of a mesh."""
-    nodes = COARSEST_NODES
-    while inlet_cells(contact, mesh, scene) * (nodes - 1) / (mesh.nx - 1) < RESOLVED_CELLS:
-        nodes = 2 * nodes - 1
-    return nodes
+    cells = inlet_cells(contact, mesh, scene) * (COARSEST_NODES - 1) / (mesh.nx - 1)
+    return surface.refined(COARSEST_NODES, cells, RESOLVED_CELLS)
 
 
 def expectation(cells, start, is_mixed, shuts):

@@ -150,15 +150,11 @@ class Solution:
         """Films, verdicts, contact, formulas and work: what result.json holds."""
         return self.result
 
-    def shared(self) -> "Solution":
-        """What every rank knows."""
-        return replace(self, fields=None)
-
     def __str__(self) -> str:
         return str(self.result)
 
 
 def on_every_rank(comm: MPI.Comm, solution: "Solution | None") -> "Solution | None":
     """The `Solution` that rank 0 has or has not, and what the others know of it (collective)."""
-    told = comm.bcast(solution and solution.shared())
+    told = comm.bcast(solution and replace(solution, fields=None))
     return solution or told

@@ -19,7 +19,7 @@ from mgehl.output.series import time_result
 from mgehl.output.words import undecided_words
 from mgehl.solver.gaps import loads
 from mgehl.solver.inequality import check_interface, check_pressure_inequality, check_under_contact
-from mgehl.solver.mass import CLOSED, mass_account
+from mgehl.solver.mass import CLOSED, flow_unit, mass_account
 from mgehl.solver.verification import LOADED, check_edge, complementarity_error, flux_imbalance
 
 COMPLEMENTARITY_TOLERANCE = 1e-6
@@ -30,9 +30,10 @@ CLOSED_IN_TIME = 1e-8
 """Part of the stored oil by which the account of a step may be off."""
 
 
-def summarise(problem, outcome, tolerance, making):
-    """The `Result` of a loaded contact with a film (collective); gap, residual and load are evaluated anew
-    from P, H0 and the partition. The `Making` is taken as it is."""
+def summarise(problem, outcome, tolerance, making, scene=None):
+    """The `Result` of a loaded contact with a film (collective), its grid judged by a `Scene` if there is
+    one; gap, residual and load are evaluated anew from P, H0 and the partition. The `Making` is taken as it
+    is."""
     contact, own = problem.contact, problem.contact.unheated
     state = outcome.state = problem.with_own_gap(outcome.state)
     evaluation = problem.evaluate(state)
@@ -50,7 +51,7 @@ def summarise(problem, outcome, tolerance, making):
         other_inequality=check_pressure_inequality(problem, state),
         contradictions=[_contradiction(each, nm) for each in outcome.contradictions],
         cavitated_nodes=problem.counts(state.status)[1],
-        resolution=resolution(contact, problem.grid.mesh),
+        resolution=resolution(contact, problem.grid.mesh, scene),
         groups=own.groups,
         moes_film=MoesFilm(central * moes, minimum * moes),
         formulas={f"{name}_nm": 1e9 * film for name, film in own.compared.items()},
@@ -71,8 +72,7 @@ def summarise(problem, outcome, tolerance, making):
 
 def summarise_in_time(problem, outcome, rows, scene, tolerance, making):
     """The `Result` of a run of a `Scene` in time, its last state verified (collective)."""
-    result = summarise(problem, outcome, tolerance, making)
-    result = replace(result, resolution=resolution(problem.contact, problem.grid.mesh, scene))
+    result = summarise(problem, outcome, tolerance, making, scene)
     if not rows:
         failed = replace(result, converged=False, settled=False, reason=outcome.reason, mass=None)
         return replace(failed, error=OF_AN_INSTANT)
@@ -155,8 +155,7 @@ def _conserves(problem, mass, tolerance):
     if mass.made_share <= CLOSED or not law.has_contact:
         return True
     area = (mesh.x[1] - mesh.x[0]) * (1.0 if mesh.is_line else mesh.y[1] - mesh.y[0])
-    unit = contact.speed * contact.film_scale * (1.0 if mesh.is_line else contact.y_scale)
-    return law.closes_faces and mass.made <= tolerance * unit * area
+    return law.closes_faces and mass.made <= tolerance * flow_unit(contact, mesh) * area
 
 
 def _eq_2(problem, state):
@@ -185,7 +184,7 @@ def _contact(problem, state, nm):
     largest_gap = nm * grid.max(np.abs(state.H[contact]), initial=0.0)
     cell = grid.mesh.dX * grid.mesh.dY
     nodes = grid.count(contact)
-    i, j = grid.mesh.nearest(0.0, 0.0)
+    i, j = grid.mesh.centre
     along_x = contact[j - grid.first] if grid.first <= j < grid.last else np.zeros(grid.mesh.nx, bool)
     x_nodes = np.flatnonzero(np.logical_or.reduce(grid.comm.allgather(along_x))) + 1
     y_nodes = np.flatnonzero(np.concatenate(grid.comm.allgather(contact[:, i]))) + 1

@@ -53,7 +53,7 @@ def surface_lines(config, contact, mesh):
     if contact.surface is None:
         return
     rms, shortest = contact.roughness, contact.shortest_wave(mesh)
-    nodes = wave_nodes(contact, mesh)
+    nodes = shortest / contact.longest_cell(mesh)
     begun = " at the beginning" if config.is_in_time else ""
     ratio = f"{contact.lambda_ratio:.3g}" if contact.lambda_ratio else "without end"
     yield (
@@ -112,10 +112,15 @@ def _recommended(verdict, nodes, mesh):
     """How many nodes would resolve the shortest wave, where these do not."""
     if verdict == RESOLVED:
         return ""
-    needed = mesh.nx
-    while nodes * (needed - 1) / (mesh.nx - 1) < RESOLVED_NODES:
-        needed = 2 * needed - 1
+    needed = refined(mesh.nx, nodes, RESOLVED_NODES)
     return f"; resolved from {needed} nodes on, or leave its short waves out"
+
+
+def refined(nodes, cells, needed):
+    """How many nodes a side, from so many on, have the `needed` cells of what `nodes` have some of."""
+    while cells < needed:
+        nodes, cells = 2 * nodes - 1, 2.0 * cells
+    return nodes
 
 
 def _part_lines(key, part, contact, mesh):

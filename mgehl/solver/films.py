@@ -45,7 +45,7 @@ class GridFilm:
 def films_between_nodes(problem, state):
     """Central film and bottom of the smallest gap, in units of H (collective)."""
     mesh = problem.grid.mesh
-    return problem.grid.on_first(lambda H: (value_at(H, mesh, 0.0, 0.0), smallest(H)), state.H)
+    return problem.grid.on_first(lambda H: (at_centre(H, mesh), smallest(H)), state.H)
 
 
 def films_beside(problem, state, minimum, H):
@@ -60,7 +60,7 @@ def films_beside(problem, state, minimum, H):
     def found(whole, of_finer):
         difference = of_finer - whole
         mean, spread = _mean_and_spread(difference, *np.unravel_index(np.argmin(of_finer), of_finer.shape))
-        return value_at(whole, mesh, 0.0, 0.0), minimum - mean, _around_centre(difference, mesh), spread
+        return at_centre(whole, mesh), minimum - mean, _around_centre(difference, mesh), spread
 
     return problem.grid.on_first(found, state.H, H)
 
@@ -81,15 +81,15 @@ def _around_centre(values, mesh):
     return float(np.sqrt(np.mean(part**2)))
 
 
-def value_at(H, mesh, X, Y):
-    """H, (ny, nx), at a point."""
-    return float(np.vdot(weights_at(mesh, X, Y), H))
+def at_centre(H, mesh):
+    """H, (ny, nx), at the centre."""
+    return float(np.vdot(weights_of_centre(mesh), H))
 
 
-def weights_at(mesh, X, Y):
-    """What nodes count for a value at a point, (ny, nx): cubics through four along either axis."""
-    across = np.ones(1) if mesh.is_line else _cubic(mesh.Y, Y)
-    return np.outer(across, _cubic(mesh.X, X))
+def weights_of_centre(mesh):
+    """What nodes count for a value at the centre, (ny, nx): cubics through four along either axis."""
+    across = np.ones(1) if mesh.is_line else _cubic(mesh.Y, 0.0)
+    return np.outer(across, _cubic(mesh.X, 0.0))
 
 
 def _cubic(nodes, point):

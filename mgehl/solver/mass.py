@@ -51,14 +51,18 @@ class Mass:
 
 def mass_account(problem, state, evaluation):
     """The `Mass` of an evaluated state of a loaded contact (collective)."""
-    contact = problem.contact
-    unit = contact.speed * contact.film_scale * (1.0 if problem.grid.mesh.is_line else contact.y_scale)
+    unit = flow_unit(problem.contact, problem.grid.mesh)
     return account(problem, state, evaluation, _hertz_ellipse(problem, evaluation), unit)
+
+
+def flow_unit(contact, mesh):
+    """The flow that carries one unit of H across one of Y, in m^3/s; of a line in m^2/s."""
+    return contact.speed * contact.film_scale * (1.0 if mesh.is_line else contact.y_scale)
 
 
 def account(problem, state, evaluation, inside, unit):
     """The `Mass` of an evaluated state, with what flows into and out of the nodes `inside` (collective).
-    That is a ghosted mask; `unit` is the flow that carries one unit of H across one of Y, in m^3/s."""
+    That is a ghosted mask; the `unit` is that of `flow_unit`."""
     grid, mesh = problem.grid, problem.grid.mesh
     cell = mesh.dX * mesh.dY
     inner = ~problem.boundary

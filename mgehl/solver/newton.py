@@ -73,7 +73,7 @@ class Newton(PythonSnes):
 
     def _beginning(self, state):
         """The `Position` before anything was done."""
-        self._partition.past = self._partition.nothing_past()
+        self._partition.forget()
         position = Position(state, self._partition.past)
         self._partition.enter_contact(state, position.changes)
         return position

@@ -95,11 +95,11 @@ class Partition:
     def __init__(self, problem):
         self._problem, self._grid = problem, problem.grid
         self._contact_law, self._tears_at = problem.scheme.contact_law, problem.contact.tears_at
-        self.past = self.nothing_past()
+        self.forget()
 
-    def nothing_past(self):
-        """The `Past` of nodes before the first step."""
-        return Past.none(self._grid.shape)
+    def forget(self):
+        """Nodes are as before the first step."""
+        self.past = Past.none(self._grid.shape)
 
     def tension(self, P, status, in_turn=False):
         """Where negative pressures tear fluid now, and where contact: arrays (lines, nx) (collective)."""

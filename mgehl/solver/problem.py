@@ -13,7 +13,7 @@ from mgehl.discretization.residual import residual
 from mgehl.discretization.rows import rows_of
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.grid.events import ASSEMBLY, event
-from mgehl.solver.films import weights_at
+from mgehl.solver.films import weights_of_centre
 from mgehl.solver.record import Kept
 
 AT_REST = (0.0, 0.0)
@@ -75,10 +75,6 @@ class Problem:
         evaluation = Evaluation(p, H, status, grid.mesh, self.flowing, self.scheme, **how)
         _ = evaluation.inflow
         return evaluation
-
-    def evaluate_full(self, state):
-        """The same were all cavities full of fluid, whatever they hold."""
-        return self.evaluate(state).filled(None)
 
     def march_contents(self, state, evaluation):
         """Give the cavities that feed nothing what flows into them, in place; return the new evaluation.
@@ -156,7 +152,7 @@ class ContactProblem(Problem):
         super().__init__(grid, contact, scheme)
         self.deflection = deflection
         self.K00 = influence_coefficients(grid.mesh, contact.kernel, 0, 1)[0, 0]
-        self._centre = weights_at(grid.mesh, 0.0, 0.0)[grid.first : grid.last]
+        self._centre = weights_of_centre(grid.mesh)[grid.first : grid.last]
         self._undeformed, self.surfaced = contact.undeformed_gap(grid.X, grid.Y), contact
         self._load_within = contact.load_within(grid.mesh)
 

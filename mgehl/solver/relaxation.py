@@ -87,7 +87,7 @@ def _relax(problem, standing, settings, monitor, journal):
         journal.step(problem.grid, standing)
         relaxation.mark_contact(state)
         state.p[:] = state.P
-        evaluation = problem.evaluate_full(state)
+        evaluation = problem.evaluate(state).filled(None)
         relaxation.mark_cavities(state, evaluation)
         change = relaxation.change(state, evaluation)
         if step == settings.max_sweeps or step % REPORT_EVERY == 0:

@@ -15,10 +15,11 @@ from pathlib import Path
 
 import dacite
 import numpy as np
+from petsc4py import PETSc
 
 from mgehl.config import config_from_tables
 from mgehl.errors import OutputError, one_line
-from mgehl.grid.events import seconds_by_part, start_logging
+from mgehl.grid.events import seconds_by_part
 from mgehl.output.surroundings import versions
 from mgehl.output.whole_file import write_whole
 from mgehl.run import run
@@ -120,7 +121,7 @@ class Benchmark:
 def measure(names, repeats, comm, tell=lambda timing: None):
     """Time the named cases on all ranks, the median of `repeats` times each; collective."""
     cases = CASES | LARGE
-    start_logging()
+    PETSc.Log.begin()
     for tables in WARM_UP:
         _run(tables, comm)
     timings = []

@@ -46,7 +46,7 @@ class Profile:
 
     def __init__(self, solution):
         mesh, fields = solution.mesh, solution.fields
-        i, j = mesh.nearest(0.0, 0.0)
+        i, j = mesh.centre
         self.nodes, self.X, self.Y = mesh.nx, mesh.X, mesh.Y
         nm = 1e9 * solution.contact.film_scale
         self.P = fields.P[j], fields.P[:, i]

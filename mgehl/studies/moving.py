@@ -12,7 +12,17 @@ import numpy as np
 from mgehl.output.pictures.style import GUIDE, subplots
 from mgehl.studies.columns import told
 from mgehl.studies.study import merged
-from mgehl.studies.waviness import ALPHA, FLUIDS, LINES, MODULUS, RADIUS, SMALL, VISCOSITY, line_case
+from mgehl.studies.waviness import (
+    ALPHA,
+    FLUIDS,
+    LINES,
+    MODULUS,
+    RADIUS,
+    SMALL,
+    VISCOSITY,
+    central_line,
+    line_case,
+)
 
 NODES = 1025
 """Of a line contact; waves of a half-width have 186 cells."""
@@ -195,7 +205,5 @@ def _dimple(study):
 
 def _film_at(solution, x):
     """Film in nm on the line through the centre at x in m, on rank 0."""
-    if solution.film is None:
-        return 0.0
-    line = solution.film[solution.mesh.nearest(0.0, 0.0)[1]]
-    return 1e9 * float(np.interp(x, solution.x, line))
+    line = central_line(solution)
+    return 0.0 if line is None else 1e9 * float(np.interp(x, solution.x, line))

@@ -42,7 +42,7 @@ def _films(solution):
 
 def saw_tooth(solution):
     """Film of the central node above the mean of its neighbours along the motion, in nm."""
-    i, j = solution.mesh.nearest(0.0, 0.0)
+    i, j = solution.mesh.centre
     before, centre, after = solution.fields.H[j, i - 1 : i + 2]
     return 1e9 * solution.contact.film_scale * (centre - 0.5 * (before + after))
 

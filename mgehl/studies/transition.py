@@ -134,7 +134,7 @@ def figure_14(points):
     branch = points[0].branch
     own = [point for point in points if point.branch == branch and point.result.settled]
     mesh, nm = own[0].solution.mesh, 1e9 * own[0].solution.contact.film_scale
-    i, j = mesh.nearest(0.0, 0.0)
+    i, j = mesh.centre
     figure, (across, inlet, film) = subplots(1, 3, size=(14.0, 4.4))
     shown = _between_film_and_contact(own)
     for point, colour in zip(shown, COLOURS, strict=False):

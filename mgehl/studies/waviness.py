@@ -123,7 +123,7 @@ def respond(study, title, case, smooth, length):
 def central_line(solution):
     """Film in m along the line of nodes through the centre, on rank 0; None elsewhere."""
     film = solution.film
-    return None if film is None else film[solution.mesh.nearest(0.0, 0.0)[1]]
+    return None if film is None else film[solution.mesh.centre[1]]
 
 
 def fitted(X, changes, length):

@@ -117,7 +117,7 @@ def test_a_cavity_without_a_gap_has_a_column_of_its_own(make_problem, rough_stat
     """Contact that was torn open where bodies still overlap, before a film: else the system is singular."""
     problem = make_problem(nodes=33)
     state = rough_state(problem)
-    j, i = problem.grid.mesh.nearest(0.0, 0.0)[::-1]
+    j, i = problem.grid.mesh.centre[::-1]
     state.P[j, i] = state.p[j, i] = 0.0
     state.status[j, i], state.filling[j, i], state.H[j, i] = CAVITATED, 0.0, -1e-3
     lin = make_jacobian(problem, state).linearisation

@@ -82,7 +82,7 @@ def test_broken_complementarity_is_not_converged(summary, outcome):
 
 def test_contact_is_described_with_nodes_counted_from_one(summary, outcome, tiny_problem):
     mesh = tiny_problem.grid.mesh
-    i, j = mesh.nearest(0.0, 0.0)
+    i, j = mesh.centre
     assert (i, j) == (5, 4)
     touch(outcome.state, [(j, i), (j, i - 1), (j - 1, i), (j + 1, i), (j + 2, i)])
     outcome.state.H[j, i] = -1e-9

@@ -13,7 +13,7 @@ def film(solve, paper_contact):
 
 def movable(problem, state):
     low = state.P <= LOW * state.P.max()
-    return low & weakly_coupled(problem, problem.evaluate_full(state), state.status)
+    return low & weakly_coupled(problem, problem.evaluate(state).filled(None), state.status)
 
 
 def relax(problem, state):
@@ -112,7 +112,7 @@ def test_complementarity_holds_where_it_relaxes(film, spoil):
     moved = relax(problem, state)
     assert moved > 50
     assert moved == np.count_nonzero(state.status != before.status)
-    inflow = problem.evaluate_full(state).inflow
+    inflow = problem.evaluate(state).filled(None).inflow
     cavity = nodes & (state.status == CAVITATED)
     assert np.all(state.P[nodes] >= 0.0)
     np.testing.assert_array_equal(state.P[cavity], 0.0)

@@ -77,7 +77,7 @@ class TestInterpolated:
     def test_under_another_load_the_film_is_as_thick(self, film, onto):
         """The bodies come as much closer as the dry ones do."""
         state, problem = onto(film, FILM, {"contact": {"load": 2.0 * film.contact.load}})
-        i, j = problem.grid.mesh.nearest(0.0, 0.0)
+        i, j = problem.grid.mesh.centre
         central = state.H[j, i] * problem.contact.film_scale
         assert 1e9 * central == pytest.approx(film.result.central_film_nm, rel=0.1)
 

@@ -45,7 +45,7 @@ def line_of(solution, across, GPa=1.0):
     """The `CentreLine` of a loaded contact along x, or along y where it is `across`; a GPa counts as so
     many."""
     mesh, fields, contact = solution.mesh, solution.fields, solution.contact
-    i, j = mesh.nearest(0.0, 0.0)
+    i, j = mesh.centre
     part, X = ((slice(None), i), mesh.Y) if across else ((j, slice(None)), mesh.X)
     Pa, nm = 1e-9 * GPa, 1e9 * contact.film_scale
     unit = Pa * contact.pressure_scale

@@ -11,8 +11,8 @@ from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.errors import UserError
 from mgehl.kinds.kind import pressure_unit
 from mgehl.output.pictures import style
-from mgehl.output.pictures.plane import LOADED
 from mgehl.output.pictures.style import FILM, PRESSURE, STATUS_MAP, STATUS_NORM
+from mgehl.solver.verification import LOADED
 
 SECOND = 10
 """Frames in a second."""
@@ -48,7 +48,7 @@ def write_movie(solution, folder):
 
 def _stage(solution, frames):
     """The figure, and a function that makes it that of a frame."""
-    plane, middle = not solution.mesh.is_line, solution.mesh.nearest(0.0, 0.0)[1]
+    plane, middle = not solution.mesh.is_line, solution.mesh.centre[1]
     largest = 1e-9 * max(fields["pressure"].max() for _, fields in frames)
     factor, unit = pressure_unit(largest)
     figure, axes = style.subplots(1, 1 + plane, size=(6.0 + 5.0 * plane, 4.6), squeeze=False)

@@ -6,13 +6,12 @@ import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
 from mgehl.discretization.status import CAVITATED, CONTACT, NAMES
+from mgehl.solver.verification import LOADED
 
 MOST = 700
 """Nodes or blocks along a side that a map of its own shows: about as many as it has dots."""
 OVERLAP = len(NAMES)
 """Drawn as a status: nodes outside of contact whose gap is negative."""
-LOADED = 0.1
-"""Part of the largest pressure from which a node carries load."""
 MARGIN = 0.5
 """Room about what a map shows, over half of it."""
 INSIDE = (0.9, 1.25, np.inf)

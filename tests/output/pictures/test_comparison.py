@@ -15,7 +15,7 @@ def test_lines_of_all_runs_in_GPa_and_nm(make_solution, drawn, check_texts):
     figure = drawn(compare_lines, runs, ["coarse", "fine"])
     along, across, films_along, films_across = figure.axes
     for label, run in (("coarse", runs[0]), ("fine", runs[1])):
-        i, j = run.mesh.nearest(0.0, 0.0)
+        i, j = run.mesh.centre
         GPa, nm = 1e-9 * run.pressure, 1e9 * run.film
         for axes, position, values in (
             (along, run.mesh.X, GPa[j]), (across, run.mesh.Y, GPa[:, i]),

@@ -13,7 +13,7 @@ def lines_of(axes):
 
 def test_both_axes_show_the_fields_in_GPa_and_nm(make_solution, drawn):
     solution = make_solution()
-    i, j = solution.mesh.nearest(0.0, 0.0)
+    i, j = solution.mesh.centre
     axes, (GPa, nm) = drawn(centre_lines, solution).axes, (1e-9 * solution.pressure, 1e9 * solution.film)
     for above, below, line, position in (
         (*axes[::2], (j, slice(None)), solution.mesh.X),
@@ -36,7 +36,7 @@ def test_a_soft_contact_is_drawn_in_kPa_as_it_is_told(make_solution, drawn):
 
 def test_suction_behind_a_contact_under_pressure_is_seen(make_solution, drawn):
     solution = make_solution()
-    i, j = solution.mesh.nearest(0.0, 0.0)
+    i, j = solution.mesh.centre
     solution.fields.P[j, i + 3] = -0.2
     low, _ = drawn(centre_lines, solution).axes[0].get_ylim()
     assert low < 1e-9 * solution.pressure.min() < 0.0
@@ -44,10 +44,9 @@ def test_suction_behind_a_contact_under_pressure_is_seen(make_solution, drawn):
 
 @pytest.mark.parametrize("suction", [0.0, -0.2])
 def test_bodies_that_overlap_are_seen_below_nothing(make_solution, drawn, suction):
-    """Deeper than the film is thick, on one node; elsewhere it differs by decades, with suction or without.
-    """
+    """Deeper than the film is thick, on one node; elsewhere it differs by decades."""
     solution = make_solution()
-    i, j = solution.mesh.nearest(0.0, 0.0)
+    i, j = solution.mesh.centre
     solution.fields.P[j, i + 3] = suction
     solution.fields.H[j] *= 1.0 + 1e3 * np.abs(solution.mesh.X)
     assert drawn(centre_lines, solution).axes[2].get_yscale() == "log"
