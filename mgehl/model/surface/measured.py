@@ -169,8 +169,12 @@ def _prepared(path, preparation, _changed):
     if not min(dx, dy) > 0.0:
         raise found.error("its size is zero")
     holes = _checked_holes(found, told.holes)
-    z = found.height_unit * (doubts.harmonic(found.heights, dx, dy) if holes else found.heights)
-    points = z = _without_form(z, REMOVED[told.remove])
+    z = found.height_unit * found.heights
+    if holes:
+        # What is filled has the form of what was measured around it: Laplace's equation knows none.
+        form = _form(z, REMOVED["curvature"])
+        z = form + doubts.harmonic(z - form, dx, dy)
+    points = z = z - _form(z, REMOVED[told.remove])
     mode = "wrap" if told.continuation == "periodic" else "mirror"
     if told.longest_wavelength is not None:
         z = z - _low_pass(z, told.longest_wavelength, dx, dy, mode)
@@ -197,15 +201,16 @@ def _checked_holes(found, holes):
     return count
 
 
-def _without_form(z, degrees):
-    """Heights less the polynomial of these degrees that is nearest to them."""
+def _form(z, degrees):
+    """The polynomial of these degrees that is nearest to the heights that there are; 0 of no degree."""
     if not degrees:
-        return z
+        return 0.0
     y, x = (np.linspace(-1.0, 1.0, n) for n in z.shape)
     x, y = np.broadcast_arrays(x[None, :], y[:, None])
     powers = [(i, degree - i) for degree in degrees for i in range(degree + 1)]
-    form = np.stack([(x**i * y**j).ravel() for i, j in powers], axis=1)
-    return z - (form @ np.linalg.lstsq(form, z.ravel(), rcond=None)[0]).reshape(z.shape)
+    form = np.stack([x**i * y**j for i, j in powers], axis=-1)
+    known = np.isfinite(z)
+    return form @ np.linalg.lstsq(form[known], z[known], rcond=None)[0]
 
 
 def _low_pass(z, wavelength, dx, dy, mode):
