@@ -175,7 +175,7 @@ class _LoadedSolve:
         mixed = result.mixed and replace(result.mixed, error=gap_error(result, beside, monitor))
         bands = {"mixed": mixed, "error": film_error(result, beside, monitor)}
         friction, maps = friction_result(problem, outcome.state)
-        friction = with_moments(friction, arms(self.case.config))
+        friction = with_moments(friction, arms(self.case.config, self.case.contact.angle))
         friction = banded(friction, mixed, contact.friction.boundary_coefficient)
         if friction and contact.friction.thins and settings.error:
             friction = with_unthinned(friction, result, beside.unthinned)
@@ -193,9 +193,10 @@ class _LoadedSolve:
         result = summarise_in_time(problem, outcome, monitor.rows, case.scene, self._tolerance, making)
         friction, maps = None, None
         if monitor.rows:
-            now = problem.moving(case.scene.speed.value(monitor.rows[-1]["time_s"]))
+            t = monitor.rows[-1]["time_s"]
+            now = problem.moving(case.scene.speed.value(t))
             friction, maps = friction_result(now, outcome.state, steady=False)
-            friction = with_moments(friction, arms(case.config))
+            friction = with_moments(friction, arms(case.config, case.scene.angle.value(t)))
         result = replace(result, friction=friction, recipe=self._recipe(outcome))
         return replace(self._solution(problem, outcome, result, maps), frames=diary.frames)
 

@@ -191,9 +191,20 @@ def _arm(body):
     return None if arm is None else abs(arm)
 
 
-def arms(config):
-    """The distance of the contact from the axis of either body in m; None where a body has none."""
-    return _arm(config.body_1), _arm(config.body_2)
+def arms(config, angle):
+    """Distance of the contact from the axis about which either body rolls towards an `angle` in degrees, in
+    m: the radius along that way, or rotation_radius. None of flat bodies, and where it is along neither
+    axis and the radii differ."""
+    bodies = config.body_1, config.body_2
+    radii = zip(*_own_radii(bodies, config.contact.kind).values(), strict=True)
+    return [_arm_towards(angle % 180.0, *each) for each in zip(bodies, radii, strict=True)]
+
+
+def _arm_towards(angle, body, radii):
+    if body.rotation_radius is not None:
+        return body.rotation_radius
+    along = radii[0] if angle == 0.0 or len(set(radii)) == 1 else radii[1] if angle == 90.0 else inf
+    return None if abs(along) == inf else abs(along)
 
 
 def _bearing(bodies, rotation):

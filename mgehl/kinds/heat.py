@@ -8,9 +8,10 @@ from mgehl.kinds.choice import Choice, given, word_of
 from mgehl.kinds.lubricant import thinning_of
 from mgehl.model.flash import Solid
 from mgehl.model.inlet_heat import LEAST_HEATED
+from mgehl.model.lubricant import USUAL_CONDUCTIVITY
 
-THINNING, CONDUCTIVITY = 0.04, 0.14
-"""Usual beta = -d ln(eta)/dT in 1/K and conductivity in W/(m K) of oils."""
+THINNING = 0.04
+"""Usual beta = -d ln(eta)/dT of oils in 1/K."""
 
 WARM, LEAST_LEFT = 0.98, 0.5
 """Part of the film that heat leaves, below which it is told, and down to which the formula is trusted."""
@@ -89,10 +90,10 @@ def heat_words(config, contact):
         return  # the run itself tells it, by the oil's own data
     oil, slip = contact.lubricant, contact.friction.slide_to_roll
     beta, k = oil.thermoviscosity or thinning_of(config), oil.conductivity
-    factor = contact.heated_film(beta or THINNING, k or CONDUCTIVITY)
+    factor = contact.heated_film(beta or THINNING, k or USUAL_CONDUCTIVITY)
     if factor < WARM and "piezoviscous" in contact.regime:
         left = f"some {100.0 * factor:.2g} %" if factor > LEAST_LEFT else "less than half"
-        words = {f"beta {beta or THINNING:.2g} 1/K": beta, f"k {k or CONDUCTIVITY:g} W/(m K)": k}
+        words = {f"beta {beta or THINNING:.2g} 1/K": beta, f"k {k or USUAL_CONDUCTIVITY:g} W/(m K)": k}
         given = "".join(f"{each}, " for each, known in words.items() if known)
         usual = " and ".join(each for each, known in words.items() if not known)
         data = f"{given}{usual} as is usual" if usual else given.removesuffix(", ")

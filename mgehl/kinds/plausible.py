@@ -9,7 +9,7 @@ from mgehl.kinds.surface_kinds import MOVING, NAMES, STILL, every_surface
 from mgehl.kinds.time import begins_at_rest, course, range_of, reference, scene_of
 from mgehl.model.films import formula_of
 from mgehl.model.frame import direction
-from mgehl.model.lubricant import Roelands
+from mgehl.model.lubricant import USUAL_CONDUCTIVITY, Roelands
 from mgehl.model.oils import CELSIUS, OILS
 from mgehl.model.own_function import OwnFunctionError
 
@@ -228,9 +228,16 @@ def _turned_axes(config):
 
 
 def _without_temperatures(config):
-    """Bodies that conduct, in time."""
-    if config.is_in_time and solids_from(config):
+    """Bodies that conduct, in time; beside oil of which that is not known."""
+    if solids_from(config) is None:
+        return
+    if config.is_in_time:
         yield "heat: a run in time tells no temperatures; a steady run of an instant does"
+    elif config.lubricant.conductivity is None:
+        yield (
+            f"lubricant.conductivity is not given: flash temperatures take {USUAL_CONDUCTIVITY:g} W/(m K), "
+            "as is usual"
+        )
 
 
 def _parts_from_rest(config):

@@ -94,6 +94,9 @@ class ConstantDensity:
         return np.ones_like(P), np.zeros_like(P)
 
 
+USUAL_CONDUCTIVITY = 0.14
+"""Of oils, in W/(m K)."""
+
 VISCOSITY_LAWS = {"barus": Barus, "roelands": Roelands}
 DENSITY_LAWS = {"dowson-higginson": DowsonHigginson, "constant": ConstantDensity}
 

@@ -18,7 +18,7 @@ class Temperatures:
     """Of the surface of body 1."""
     largest_2: float
     film: float | None
-    """Mean over thickness and by pressure; None where the oil's conductivity is not known."""
+    """Mean over thickness and by pressure; None in older results, of oil that tells no conductivity."""
     largest_film: float | None
 
 
@@ -112,8 +112,6 @@ def friction_result(problem, state, steady=True):
 def _temperatures(problem, state, rise):
     grid = problem.grid
     largest = [grid.max(each) for each in (rise.first, rise.second)]
-    if rise.film is None:
-        return Temperatures(*largest, None, None)
     film = np.where(is_fluid(state.status), rise.film, 0.0)
     carried = np.where(is_fluid(state.status), state.p, 0.0)
     by_pressure = grid.sum((carried * film).sum()) / max(grid.sum(carried.sum()), TINY)

@@ -6,6 +6,7 @@ import numpy as np
 
 from mgehl.discretization.status import is_fluid
 from mgehl.model.flash import MovingHeat, shared
+from mgehl.model.lubricant import USUAL_CONDUCTIVITY
 
 
 @dataclass(frozen=True)
@@ -15,8 +16,8 @@ class Rise:
     first: np.ndarray
     """Of the surface of body 1."""
     second: np.ndarray
-    film: np.ndarray | None
-    """Mean over the thickness of the film; None where the oil's conductivity is not known."""
+    film: np.ndarray
+    """Mean over the thickness of the film."""
 
 
 def rise_of(problem, state, shear):
@@ -26,14 +27,12 @@ def rise_of(problem, state, shear):
     heat = shear * contact.friction.sliding_speed(contact.speed)
     gap = problem.scheme.contact_law.flow_gap(state.H)[0]
     gap = contact.film_scale * np.where(is_fluid(state.status), np.maximum(gap, 0.0), 0.0)
-    conductivity = contact.lubricant.conductivity
-    resistance = gap / conductivity if conductivity else np.zeros(gap.shape)
+    resistance = gap / (contact.lubricant.conductivity or USUAL_CONDUCTIVITY)
     whole = grid.gather(heat), grid.gather(resistance)
     found = (None, None) if whole[0] is None else _rises(contact, grid.mesh, *whole)
     first, second = (grid.scatter(each) for each in found)
     # Heat that is made evenly between two walls: q h/(12 k) above their mean.
-    film = 0.5 * (first + second) + heat * resistance / 12.0 if conductivity else None
-    return Rise(first, second, film)
+    return Rise(first, second, 0.5 * (first + second) + heat * resistance / 12.0)
 
 
 def has_temperatures(contact):

@@ -8,6 +8,7 @@ from told import refusal
 
 from mgehl.config import KEYS, ConfigError, config_from_tables, load_config
 from mgehl.kinds import contact_from
+from mgehl.kinds.bodies import arms
 from mgehl.kinds.derived import EITHER, FOLLOWS, NEEDS
 from mgehl.kinds.heat import heat_words
 from mgehl.model.oils import OILS
@@ -225,3 +226,19 @@ def test_heat_of_the_inlet_goes_by_what_the_oil_tells(known, said):
     config = of({"motion.speed": 10.0} | {f"lubricant.{name}": value for name, value in known.items()})
     (words,) = heat_words(config, contact_from(config))
     assert said in words
+
+
+@pytest.mark.parametrize("angle, found", [(0.0, (0.03, 0.01)), (90.0, (0.01, None)), (-180.0, (0.03, 0.01)),
+                                          (30.0, (None, None))])  # fmt: skip
+def test_a_body_rolls_on_its_radius_along_the_motion(angle, found):
+    """And on none where it is flat that way, or goes along neither axis."""
+    settings = {"body_1.radius_x": 0.03, "body_1.radius_y": 0.01, "body_2.radius_x": 0.01}
+    assert tuple(arms(load_config(None, settings), angle)) == found
+
+
+def test_a_ball_rolls_on_its_radius_and_who_tells_it_on_that():
+    settings = {"body_1.diameter": 0.02, "body_2.conformity": 0.52, "body_2.rotation_radius": 0.04}
+    config = load_config(
+        None, settings | {"body_2.radius_x": -0.1, "body_2.rotation": 9.0, "body_1.speed": 1}
+    )
+    assert arms(config, 30.0) == [0.01, 0.04]

@@ -146,6 +146,14 @@ def test_a_run_in_time_says_that_it_tells_no_temperatures():
     assert not any("no temperatures" in line for line in odd(BALL | bodies))
 
 
+@pytest.mark.parametrize("oil, is_odd", [({}, True), ({"lubricant.conductivity": 0.13}, False)])
+def test_flash_temperatures_say_what_they_take_of_an_oil_that_tells_no_conductivity(oil, is_odd):
+    bodies = {f"heat.{key}_{body}": value for body in (1, 2) for key, value in STEEL.items()}
+    said = "lubricant.conductivity is not given: flash temperatures take 0.14 W/(m K), as is usual"
+    assert (said in odd(BALL | bodies | oil)) == is_odd
+    assert said not in odd(BALL | oil)
+
+
 @pytest.mark.parametrize("layers, is_odd", [(0.0, True), ("2 nm", False)])
 def test_a_start_from_rest_wants_layers(tmp_path, layers, is_odd):
     course = tmp_path / "speed.csv"

@@ -33,3 +33,13 @@ def test_temperatures_of_a_solved_contact():
     assert found.largest_1 == pytest.approx(solution.fields.flash_1.max())
     assert 0.9 < found.largest_1 / found.largest_2 < 1.0
     assert found.largest_film > found.film > 0.0
+
+
+def test_oil_that_tells_no_conductivity_has_the_usual_one():
+    """Oil that conducts without end would make steel and glass as warm as each other."""
+    bodies = STEEL | {"conductivity_2": 1.0, "capacity_2": 2e6}
+    told, usual = (
+        solved(SLIDES, {"lubricant": oil, "heat": bodies}) for oil in ({"conductivity": 0.14}, {})
+    )
+    assert usual.summary.friction.temperatures == told.summary.friction.temperatures
+    assert told.summary.friction.temperatures.largest_2 > 1.5 * told.summary.friction.temperatures.largest_1

@@ -20,9 +20,12 @@ POSITIONS = (
     "the first row and column are evenly spaced, as positions are, but are taken for heights: are they?"
 )
 
+_BEGIN = r"(?:^|[^\w ]) *(?:(?:scan|image|map) +)?"
+"""What stands before a size: a "max height" is none."""
+
 _TOLD = {
-    "x": re.compile(rf"\b(?:width|breite|x-length)\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
-    "y": re.compile(rf"\b(?:height|höhe|y-length)\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
+    "x": re.compile(rf"{_BEGIN}(?:width|breite|x-length)\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
+    "y": re.compile(rf"{_BEGIN}(?:height|höhe|y-length)\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
     "pixel": re.compile(rf"\bpixel\s+size\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
     "factor": re.compile(rf"\bheight conversion factor \(->\s*m\)\s*=\s*({NUMBER})()", re.I),
     "unit": re.compile(r"()\b(?:value units?|z-unit)\s*[:=]\s*([^\s;]+)", re.I),
@@ -46,8 +49,10 @@ def read_text(path):
 def _with_heading(found, told):
     """A `Map` with the sizes and units of its heading."""
     rows, columns = found.heights.shape
-    if "pixel" in told:
-        told["x"], told["y"] = ((told["pixel"][0] * n, told["pixel"][1]) for n in (columns, rows))
+    for axis, points in (("x", columns), ("y", rows)) if "pixel" in told else ():
+        pixels = told["pixel"][0] * points, told["pixel"][1]
+        _check_size(found, axis, points, told.get(axis, pixels), pixels)
+        told[axis] = pixels
     known = {}
     if "x" in told and "y" in told:
         (dx, unit), (dy, unit_y) = (told[axis] for axis in "xy")
@@ -56,6 +61,18 @@ def _with_heading(found, told):
         known = {"dx": dx / columns, "dy": dy / rows, "position_unit": unit}
     unit = told["factor"][0] if "factor" in told else UNITS.get(_unit(told, "unit"))
     return found.told(height_unit=unit, **known)
+
+
+def _check_size(found, axis, points, told, pixels):
+    """Raise SurfaceFileError where a heading tells another size than its pixels have: by more than two of
+    them, and a per cent."""
+    if told[1] not in UNITS or pixels[1] not in UNITS:
+        return
+    size, theirs = (number * UNITS[unit] for number, unit in (told, pixels))
+    if abs(size - theirs) > max(2.0 / points, 0.01) * theirs:
+        raise found.error(
+            f"its heading tells a size along {axis} of {size:.4g} m, but its pixels make {theirs:.4g} m"
+        )
 
 
 def _unit(told, name):

@@ -24,7 +24,7 @@ def test_holes_of_a_plane_are_filled_to_the_plane():
 
 @pytest.mark.parametrize("bent", [0.0, 0.1])
 def test_a_file_s_holes_are_filled_to_its_form_where_that_is_asked(tmp_path, bent):
-    """One within, one at the edge, of a plane and of a ball's cap: what is left without the form is flat."""
+    """One within, one at the edge, of a plane and of a ball's cap; without its form it is flat."""
     whole = 3.0 + X - 2.0 * Y + bent * (X**2 + Y**2)
     z = whole.copy()
     z[5:8, 5:8] = z[20:24, :3] = np.nan
@@ -34,9 +34,13 @@ def test_a_file_s_holes_are_filled_to_its_form_where_that_is_asked(tmp_path, ben
     np.testing.assert_allclose(found.values, 1e-9 * whole, rtol=0, atol=1e-19)
     assert found.filled == 21
     remove = "curvature" if bent else "tilt"
-    flat = Measured(str(tmp_path / "z.npy"), Preparation(**told, holes="interpolate", remove=remove)).heights
+    flat = Measured(
+        str(tmp_path / "z.npy"), Preparation(**told, holes="interpolate", remove=remove)
+    ).heights
     np.testing.assert_allclose(flat.values, 0.0, rtol=0, atol=1e-19)
-    with pytest.raises(SurfaceFileError, match='21 of 1200 points are .*; holes = "interpolate" fills them'):
+    with pytest.raises(
+        SurfaceFileError, match='21 of 1200 points are .*; holes = "interpolate" fills them'
+    ):
         _ = Measured(str(tmp_path / "z.npy"), Preparation(**told)).heights
 
 

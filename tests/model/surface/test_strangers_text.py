@@ -63,6 +63,9 @@ HEADINGS = {
         3.5e-7, 3.5e-7, 1.0, 6e-8,
     ),
     "SPIP": ("# x-length=8 ; y-length=4 ; x-unit=nm ; z-unit=pm\n", 2.0, 1.0, 1e-9, 1e-12),
+    "another height": (
+        "# Max height: 3.2 µm\n# Scan width = 12 um; Height = 20 um; Height: 1 um\n", 3.0, 5.0, 1e-6, None),
+    "pixels in a line": ("# Pixel size: 2 nm\n# Width: 4 px\n# Height: 8.1 nm\n", 2.0, 2.0, 1e-9, None),
     "no unit": ("# Width: 12\n# Height: 8\n", 3.0, 2.0, None, None),
 }  # fmt: skip
 
@@ -97,6 +100,9 @@ REFUSED = {
     "a cell of any length": ('"' + 200000 * "a" + ";b\n", "has no row of numbers"),
     "three columns that are heights, with a size": (
         "# Width: 1 um\n# Height: 1 um\n1 2 3\n4 5 6\n1 2 3\n4 5 6\n", "has 4 rows and 3 columns; must be"),
+    "pixels of another size": (
+        f"# Pixel size: 1 um\n# Width: 4 um\n# Height: 9 um\n{matrix(';')}",
+        "its heading tells a size along y of 9e-06 m, but its pixels make 4e-06 m"),
     "a line that is missing": (
         "\n".join(f"{a} {b} 1" for b in (0, 1, 2, 3, 5) for a in range(5)),
         "its spacing along y is not equal: 2 from y = 3 to 5"),
