@@ -30,7 +30,8 @@ def check_keys(config):
     for name in NAMES:
         section = getattr(config, name)
         if section.kind == "waviness" and section.wavelength_x is None and section.wavelength_y is None:
-            either = f"{name}.wavelength_x: it or {name}.wavelength_y"
+            other = "" if config.contact.kind == "line" else f" it or {name}.wavelength_y"
+            either = f"{name}.wavelength_x:{other}"
             raise ConfigError(f'{either} must be given with {name}.kind = "waviness"')
         _check_cut_offs(name, section)
         if not config.is_in_time:

@@ -19,6 +19,10 @@ NAMES = ("surface", "second_surface")
 
 FORMULAS = {"waviness": Waviness, "self-affine": SelfAffine, "dent": Dent, "ridge": Ridge}
 
+ALONG_Y = {"waviness": ("wavelength_y", "angle", "y"), "dent": ("y",), "ridge": ("angle", "y")}
+"""Keys of a formula that mean nothing to a line contact, which has nothing that varies along y. Another y
+or angle of a file, or of self-affine heights, is another profile."""
+
 OF_A_FILE = (
     "file", "height_unit", "position_unit", "spacing", "spacing_y", "continuation", "remove", "holes",
     "shortest_wavelength", "longest_wavelength", "body", "x", "y", "angle",
@@ -99,10 +103,13 @@ def surface_choices(tables):
         elif kind is None:
             yield Choice(f"without {name}.kind or {name}.file", (name,))
         elif kind in FORMULAS:
-            parameters = _parameters(FORMULAS[kind])
+            parameters, said = _parameters(FORMULAS[kind]), f'with {name}.kind = "{kind}"'
+            if word_of(tables, "contact.kind") == "line" and kind in ALONG_Y:
+                said = f"{said} of a line contact"
+                parameters = {key: each for key, each in parameters.items() if key not in ALONG_Y[kind]}
             takes = _keys(name, ("kind", "body", *parameters))
             needs = _keys(name, (key for key, needed in parameters.items() if needed))
-            yield Choice(f'with {name}.kind = "{kind}"', (name,), takes, needs)
+            yield Choice(said, (name,), takes, needs)
 
 
 def _keys(section, names):

@@ -66,6 +66,22 @@ def test_what_cannot_be_used_is_one_line(table, start):
     assert refusal(checked, surface=table, error=ConfigError).startswith(start)
 
 
+OF_A_PLANE = {
+    "waves along y": (WAVES | {"wavelength_y": 3e-5}, "surface.wavelength_y = 3e-05: means nothing with"),
+    "turned waves": (WAVES | {"angle": 90.0}, "surface.angle = 90.0: means nothing with surface.kind = "),
+    "a dent beside": (DENT | {"y": 1e-3}, "surface.y = 0.001: means nothing with surface.kind = "),
+    "a turned ridge": (RIDGE | {"angle": 90.0}, "surface.angle = 90.0: means nothing with surface.kind"),
+    "no wavelength": ({"kind": "waviness", "amplitude": 1e-8}, "surface.wavelength_x: must be given"),
+}
+
+
+@pytest.mark.parametrize("table, start", OF_A_PLANE.values(), ids=OF_A_PLANE)
+def test_a_line_contact_has_no_heights_that_vary_along_y(table, start):
+    """They would be those at y = 0. Self-affine ones at another angle or y are another profile."""
+    assert start in refusal(checked, contact={"kind": "line"}, surface=table)
+    checked(contact={"kind": "line"}, surface=ROUGH | {"angle": 30.0, "aspect": 2.0})
+
+
 def test_a_wedge_has_none():
     said = refusal(checked, contact={"kind": "wedge"}, surface=DENT, motion={})
     assert said.startswith("surface.kind = 'dent': means nothing where contact.kind")
