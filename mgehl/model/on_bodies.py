@@ -7,8 +7,11 @@ import numpy as np
 
 from mgehl.model.surface.surface import JUST, step_of
 
-SAMPLES = 65
-"""Heights along each axis of the ellipse from which the roughness is reckoned, whatever the grid."""
+SAMPLES, MOST_SAMPLES, MOST_OF_A_LINE = 65, 513, 4097
+"""Heights along each axis of the ellipse from which the roughness is reckoned, whatever the grid; and up to
+how many where waves are short, of a line contact the last."""
+FEWEST = 3.0
+"""Samples in the shortest wave: by two, all of them may be peaks of a regular one."""
 STEP = 1e-3
 """Part of the semi-axes over which slopes are taken."""
 NEXT_TO_NONE = 1e-18
@@ -33,14 +36,14 @@ class OnBodies:
     @property
     def roughness(self):
         """Rms of the heights within the Hertz ellipse, about their mean, in m; 0 of smooth bodies."""
-        rms = float(np.sqrt(np.mean(self.heights**2)))
+        rms = float(np.std(self._samples))
         return rms if rms > NEXT_TO_NONE else 0.0
 
     @property
     def skewness(self):
         """Ssk of the same heights: positive where there are more peaks than valleys; 0 of smooth bodies."""
         rms = self.roughness
-        return float(np.mean((self.heights / rms) ** 3)) if rms else 0.0
+        return float(np.mean(((self._samples - self.mean_height) / rms) ** 3)) if rms else 0.0
 
     @property
     def slope(self):
@@ -65,16 +68,34 @@ class OnBodies:
 
     @property
     def heights(self):
-        """Samples of the heights within the Hertz ellipse, about their mean, in m, (n,)."""
-        return self._samples - self._samples.mean()
+        """Heights at the same places X and Y within the Hertz ellipse of any contact, about their mean, in
+        m, (n,)."""
+        found = self._samples if self._samples_a_side == SAMPLES else self._sampled(0.0, 0.0, SAMPLES)
+        return found - found.mean()
 
     @cached_property
     def _samples(self):
-        return np.zeros(1) if self.surface is None else self._sampled(0.0, 0.0)
+        return self._sampled(0.0, 0.0)
 
-    def _sampled(self, dx, dy):
+    @cached_property
+    def _samples_a_side(self):
+        """So many that the shortest wave has `FEWEST`."""
+        if self.surface is None:
+            return SAMPLES
+        found, most = SAMPLES, MOST_OF_A_LINE if self.is_plane else MOST_SAMPLES
+        X, longest = np.linspace(-1.0, 1.0, most), max(self.x_scale, 0.0 if self.is_plane else self.y_scale)
+        shortest = self.surface.shortest(
+            X * self.x_scale, X[:1] * 0.0 if self.is_plane else X * self.y_scale
+        )
+        while found < most and 2.0 * longest / (found - 1) > shortest / FEWEST:
+            found = 2 * found - 1
+        return found
+
+    def _sampled(self, dx, dy, samples=None):
         """Heights so far, in m, beside the places of the samples, which lie within the Hertz ellipse."""
-        X = np.linspace(-1.0, 1.0, SAMPLES)[None, :]
+        if self.surface is None:
+            return np.zeros(1)
+        X = np.linspace(-1.0, 1.0, samples or self._samples_a_side)[None, :]
         Y = np.zeros((1, 1)) if self.is_plane else X.T
         heights = self.surface.height(X * self.x_scale + dx, Y * self.y_scale + dy)
         inside = X**2 + Y**2 <= 1.0

@@ -8,6 +8,7 @@ from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, DowsonHigginson, Lubricant
 from mgehl.model.point import PointContact
 from mgehl.model.surface.shapes import Dent
+from mgehl.model.surface.waviness import Waviness
 
 LUBRICANT = Lubricant(Barus(0.096, 18.2e-9), DowsonHigginson())
 BODY = {"radius_x": 12.7e-3, "reduced_modulus": 219.78e9, "lubricant": LUBRICANT}
@@ -41,3 +42,15 @@ def test_roughness_is_that_within_the_ellipse(where, is_rough):
     expected = np.std(contact.surface.height(x[None, :], x[:, None])[inside])
     assert contact.roughness == pytest.approx(expected, rel=0.02, abs=1e-15)
     assert is_rough == (contact.roughness > 1e-9) == (contact.lambda_ratio is not None)
+
+
+@every_contact
+@pytest.mark.parametrize("waves", [16, 32, 64])
+@pytest.mark.parametrize("phase", [0.0, 0.25])
+def test_regular_waves_have_their_rms_however_short_and_wherever_their_peaks_are(contact, waves, phase):
+    """A/sqrt(2); where samples lay on all peaks, or on all zeros, it was A, or nothing."""
+    length = contact.x_scale / waves
+    wavy = replace(contact, surface=Waviness(1e-8, length, x=phase * length))
+    assert wavy.roughness == pytest.approx(1e-8 / 2.0**0.5, rel=0.01)
+    long = replace(contact, surface=Waviness(1e-8, contact.x_scale))
+    assert wavy.heights.shape == long.heights.shape  # places in common, by which contacts are compared
