@@ -18,8 +18,9 @@ from collections.abc import Iterable, Mapping
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
+from warnings import warn
 
-from mgehl.config import Config, load_config
+from mgehl.config import Config, config_from_tables, not_given, read_tables
 from mgehl.errors import Stopped
 from mgehl.petsc_options import leave_signals_alone
 
@@ -36,10 +37,15 @@ def load(
     """Read a configuration (TOML, SI numbers or strings with units); default: the paper's ball.
 
     `settings` override keys of the file: {"grid.nodes": 129, ...}, {"grid": {"nodes": 129}}
-    or ["grid.nodes=129", ...].
+    or ["grid.nodes=129", ...]. What makes the contact and is not given in a file's configuration is
+    warned of: there the paper's values are taken.
     Raises `mgehl.ConfigError`, one line that names the key, the value and what is allowed.
     """
-    return load_config(path, settings)
+    tables = read_tables(path, settings)
+    config = config_from_tables(tables)
+    if path is not None and (missing := not_given(config, tables)):
+        warn(f"{path}: not given: {', '.join(missing.values())}", stacklevel=2)
+    return config
 
 
 def read(directory: str | PathLike[str]) -> "Solution":
@@ -71,7 +77,7 @@ def solve(
     contact that can be solved, and `mgehl.UserError` where `start` is another kind of contact, or one in
     time between other heights.
     """
-    config = config if isinstance(config, Config) else load_config(config)
+    config = config if isinstance(config, Config) else load(config)
     leave_signals_alone()
     from mpi4py import MPI
 
@@ -120,7 +126,7 @@ def sweep(
     from mgehl.studies.points import axis_of, points_of
     from mgehl.studies.sweep import swept
 
-    config = config if isinstance(config, Config) else load_config(config)
+    config = config if isinstance(config, Config) else load(config)
     axes = [axis_of(config, key, values) for key, values in over.items()]
     swept(directory, comm or MPI.COMM_WORLD, axes, points_of(config, axes), Watch(), speak=False)
     return xarray.load_dataset(Path(directory) / "sweep.nc", engine="h5netcdf")

@@ -166,9 +166,10 @@ def load_config(path=None, settings=()):
 
 
 def not_given(config, tables):
-    """The `physics` of a `Config` that its tables do not give, where the paper's values are taken."""
+    """{key: words} of the `physics` of a `Config` that its tables do not give: the paper's are taken."""
     known = {each.key for each in config.derived}
-    return [key for key in config.physics if key not in known and value_of(tables, key) is None]
+    missing = (key for key in config.physics if key not in known and value_of(tables, key) is None)
+    return {key: f"{key}: {config.said(key)} is the paper's" for key in missing}
 
 
 def read_tables(path=None, settings=()):

@@ -3,10 +3,12 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
+from warnings import catch_warnings, simplefilter
 
 import numpy as np
 import pytest
 from mpi4py import MPI
+from places import CONFIGS
 from processes import own_environment
 from told import refusal
 
@@ -54,6 +56,18 @@ def test_settings_may_be_sections():
 def test_a_mistake_is_one_line(settings, words):
     said = refusal(mgehl.load().with_, settings, error=mgehl.ConfigError)
     assert words in said and said.startswith(next(iter(settings)))
+
+
+def test_what_a_file_does_not_give_is_warned_of(tmp_path):
+    """And what it gives is not; without a file all is the paper's."""
+    (tmp_path / "my.toml").write_text("contact.radius_x = 0.01\nmotion.speed = 1.0\n")
+    said = "my.toml: not given: .*contact.radius_y: 0.0127 m is the paper's"
+    with pytest.warns(UserWarning, match=said) as told:
+        mgehl.load(tmp_path / "my.toml", {"contact.load": 100.0})
+    assert len(told) == 1 and not any(key in str(told[0].message) for key in ("radius_x", "load", "speed"))
+    with catch_warnings():
+        simplefilter("error")
+        mgehl.load(None, FILM), mgehl.load(CONFIGS / "wavy.toml")
 
 
 class TestShown:

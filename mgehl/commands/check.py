@@ -42,7 +42,7 @@ def execute(options):
         case = checked_case(config_from_tables(tables))
     config, contact, mesh = case.config, case.contact, case.mesh
     print(f"{options.config or shown(file)}: valid, a {config.kind.noun}\n")
-    lines = [*_given(config, not_given(config, tables)), *_idle(config, tables)]
+    lines = [*_given(config, not_given(config, tables).values()), *_idle(config, tables)]
     lines += *_under("unusual", implausible(config, contact)), "", *_described(case)
     lines += *_estimate(config, contact, mesh, options.ranks), *_recipe(case), ""
     names = ", ".join(SOURCES[key].short for key in cited(config, contact))
@@ -60,7 +60,7 @@ def _given(config, missing):
         "follows", (f"{each.key} = {config.said(each.key)}: {each.how}" for each in config.derived)
     )
     yield from (f"{'oil':{NAME}}{words}" for words in oil_words(config))
-    yield from _under("not given", (f"{key}: {config.said(key)} is the paper's" for key in missing))
+    yield from _under("not given", missing)
 
 
 def _idle(config, tables):

@@ -81,7 +81,7 @@ def _begin(options, comm):
     with naming_file(file, settings):
         tables = read_tables(file, settings)
         case = enter(config_from_tables(tables), comm)
-    on_first_rank(comm, _complain, _doubts(case))
+    on_first_rank(comm, _complain, doubts(case.config, case.contact))
     start = _start(options.start_from, case, comm) if options.start_from else None
     if start and comm.rank == 0:
         _complain(_differences(options.start_from, start, case.config))
@@ -110,18 +110,17 @@ def _say_what(options, file, case, tables):
 
     changed, config = ", changed by --set" if options.settings else "", case.config
     which = [] if options.config else [f"no configuration named: solving {shown(file)}{changed}"]
-    which += [f"not given: {key}: {config.said(key)} is the paper's" for key in not_given(config, tables)]
+    which += [f"not given: {words}" for words in not_given(config, tables).values()]
     which += [f"unusual: {words}" for words in implausible(config, case.contact)]
     for words in which:
         mention(words)
 
 
-def _doubts(case):
-    """Heights that may be errors."""
+def doubts(config, contact):
+    """Lines about heights that may be errors."""
     from mgehl.output.surface import surface_doubts
 
-    if case.config.kind.is_loaded:
-        yield from surface_doubts(case.config, case.contact)
+    return surface_doubts(config, contact) if config.kind.is_loaded else ()
 
 
 def _differences(directory, start, config):

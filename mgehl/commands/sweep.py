@@ -17,7 +17,7 @@ from pathlib import Path
 from shlex import quote
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_results, add_settings
-from mgehl.config import load_config
+from mgehl.config import load_config, not_given, read_tables
 from mgehl.config_file import chosen_config, naming_file
 from mgehl.errors import ConfigError, OutputError
 
@@ -50,7 +50,7 @@ def execute(options, comm):
     if comm.bcast(directory.exists()) and not options.resume:
         raise OutputError(f"{directory} exists: add --resume to go on, or choose another with --out")
     if comm.rank == 0 and not options.quiet:
-        _say_unusual(points)
+        _say_what(points, read_tables(file, options.settings), [axis.key for axis in axes])
     asked = (*(f"--over {word}" for word in options.over), *options.settings)
     with StopWhenTold(f"go on with --resume, --out {quote(str(directory))}") as stop:
         study = swept(directory, comm, axes, points, Watch(stop=stop), not options.quiet, asked)
@@ -67,13 +67,20 @@ def _to_be_swept(file, settings, over):
     return load_config(file, settings)
 
 
-def _say_unusual(points):
-    """Say what is unusual in the input, each once, at the first point that has it."""
+def _say_what(points, tables, swept):
+    """Say what the `tables` do not give and nothing goes over, which heights of the first point may be
+    errors, and what is unusual in the input, each once, at the first point that has it."""
+    from mgehl.commands.run import doubts
     from mgehl.kinds import contact_from
     from mgehl.kinds.plausible import implausible
-    from mgehl.saying import mention
+    from mgehl.saying import complain, mention
 
-    found = {}
+    first, found = points[0].config, {}
+    for words in doubts(first, contact_from(first)):
+        complain(words)
+    for key, words in not_given(first, tables).items():
+        if key not in swept:
+            mention(f"not given: {words}")
     for point in points:
         for words in implausible(point.config, contact_from(point.config)):
             found.setdefault(words.split()[0], f"unusual from point {point.run} on: {words}")

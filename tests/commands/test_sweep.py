@@ -134,10 +134,13 @@ def test_what_nothing_leads_to_is_found_from_the_point_after_it(tmp_path, monkey
 def test_what_is_unusual_is_said_once(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(study, "run", lambda *case: (_ for _ in ()).throw(UserError("not asked")))
     over = ["--over", "motion.speed=100,300,400 m/s", "--out", str(tmp_path / "fast")]
-    assert main(["sweep", *FILM, *over]) == 1
+    (tmp_path / "my.toml").write_text("contact.radius_x = 0.01\n")
+    assert main(["sweep", str(tmp_path / "my.toml"), *FILM, *over]) == 1
     said = " ".join(capsys.readouterr().out.split())
     assert said.count("unusual from point 002 on: motion.speed = 300 m/s: machines have 0 to 200") == 1
     assert "400 m/s: machines" not in said
+    assert "not given: contact.load: 800 N is the paper's" in said
+    assert "not given: motion.speed" not in said and "not given: contact.radius_x" not in said
 
 
 @pytest.mark.parametrize(
