@@ -154,6 +154,10 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         Upstream, and `downstream` where no film tears."""
         raise NotImplementedError
 
+    def shear_beyond(self, mesh, downstream=False):
+        """What the shear of the oil there takes from surfaces that slide; as `drag_beyond`."""
+        raise NotImplementedError
+
     @property
     def is_at_rest(self):
         """Without a speed: a dry contact."""

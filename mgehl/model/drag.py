@@ -1,10 +1,13 @@
-"""What drags bodies that roll beyond the domain, where all is full of oil.
+"""What drags bodies that roll and slide beyond the domain, where all is full of oil.
 
 Far from a point contact the pressure is that of rigid bodies [Kapitza 1955], p = -K x/h^2 with
-h = x^2/2R_x + y^2/2R_y. Beside a line contact it rises by dp/dx = 12 eta u (h - h_c)/h^3.
+h = x^2/2R_x + y^2/2R_y. Beside a line contact it rises by dp/dx = 12 eta u (h - h_c)/h^3. Oil between
+surfaces that slide is sheared as hardly pressed oil is, tau = eta (u_1 - u_2)/h by Newton's law.
 """
 
 import numpy as np
+
+from mgehl.model.conditions import Conditions
 
 DIRECTIONS = 3600
 """Of the quadrature around the contact, from the middle of each: good to six digits."""
@@ -14,6 +17,9 @@ def kapitza_factor(lubricant, speed, along, across):
     """K in N/m of Kapitza's p = -K x/h^2, a body with these radii along and across the motion in m."""
     return 12.0 * lubricant.viscosity * speed / (3.0 + 2.0 * along / across)
 
+
+WAYS = 360
+"""The same of what is sheared: good to four digits."""
 
 NODES, WEIGHTS = (0.5 * each for each in np.polynomial.legendre.leggauss(32))
 """Of the quadrature along a line contact, about its middle: good to ten digits."""
@@ -51,6 +57,39 @@ def kapitza_drag_beyond(contact, x, y, downstream=False):
     return float(
         np.mean(np.where((pressing < 0.0) | downstream, dragged * np.log(ratio) / curvature, 0.0)) * np.pi
     )
+
+
+def line_shear_beyond(contact, x, downstream):
+    """What the shear of the oil takes from surfaces that slide, in N/m, from the domain's end upstream on,
+    and `downstream`, too; gap and end as in `line_drag_beyond`."""
+    near = 0.5 + NODES
+    total = 0.0
+    for end in (-x[0], x[1])[: 1 + downstream]:
+        gap = contact.flooded_film + contact.film_scale * contact.dry_gap(end / near, None)
+        total += float(np.sum(WEIGHTS * end / near**2 * _shear_stress(contact, gap)))
+    return contact.x_scale * total
+
+
+def point_shear_beyond(contact, x, y, downstream):
+    """The same in N, from the end of a domain, at `x` and `y` in units of X and Y, to a radius of curvature
+    away, as in `kapitza_drag_beyond`."""
+    angles = (np.arange(WAYS) + 0.5) * 2.0 * np.pi / WAYS
+    c, s = np.cos(angles), np.sin(angles)
+    near = np.minimum(_way(c, x, contact.x_scale), _way(s, y, contact.y_scale))
+    far = np.maximum(1.0 / (c**2 / contact.radius_x + s**2 / contact.radius_y), near)
+    r = near * (far / near) ** (0.5 + NODES[:, None])  # evenly in its logarithm, as what is sheared falls
+    dry = contact.dry_gap(r * c / contact.x_scale, r * s / contact.y_scale)
+    stress = _shear_stress(contact, contact.flooded_film + contact.film_scale * dry)
+    of_each = np.log(far / near) * (WEIGHTS @ (r**2 * stress))
+    counted = (c * contact.motion[0] + s * contact.motion[1] < 0.0) | downstream
+    return float(2.0 * np.pi * np.mean(np.where(counted, of_each, 0.0)))
+
+
+def _shear_stress(contact, gap):
+    """In Pa, of oil that is pressed no more than around the contact, where the gap is so many m."""
+    oil, speed = contact.lubricant, contact.friction.sliding_speed(contact.speed)
+    pressure, viscosity = (np.full(gap.shape, each) for each in (oil.ambient_pressure, oil.cold_viscosity))
+    return contact.friction.rheology.shear_stress(Conditions(pressure, viscosity, shear_rate=speed / gap))
 
 
 def _way(part, ends, scale):

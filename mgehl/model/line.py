@@ -7,7 +7,7 @@ from math import pi
 from mgehl.model import films
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfPlane
-from mgehl.model.drag import line_drag_beyond
+from mgehl.model.drag import line_drag_beyond, line_shear_beyond
 from mgehl.model.flash import Solid
 from mgehl.model.hertz import hertz_line_contact, hertz_line_gap
 from mgehl.model.lubricant import Lubricant
@@ -66,6 +66,10 @@ class LineContact(LoadedContact):
     def drag_beyond(self, mesh, downstream=False):
         """By the film between the cylinders as they are pressed."""
         return line_drag_beyond(self, mesh.x, downstream)
+
+    def shear_beyond(self, mesh, downstream=False):
+        """By the same film."""
+        return line_shear_beyond(self, mesh.x, downstream)
 
     @property
     def groups(self):

@@ -61,6 +61,8 @@ class FrictionResult:
     """Of the force on body 1 about its axis, positive as its surface moves along the motion; None: flat."""
     moment_2_Nm: float | None = None
     """The same of body 2; of a line contact those of a metre."""
+    sliding_beyond: float = 0.0
+    """What shear takes there by the same formula of the gap; in no force either."""
     unthinned_film_nm: float | None = None
     """Central film, or mean gap, if shear did not thin it; None where it does not, or nobody asked."""
     unthinned_minimum_nm: float | None = None
@@ -76,6 +78,9 @@ LEAST = 1e-5
 TINY = 1e-300
 """No pressure at all: the film has no mean by it."""
 
+TOLD = 0.01
+"""Part of the coefficient that is sheared beyond the domain and said."""
+
 
 def friction_result(problem, state, steady=True):
     """The `FrictionResult` of a state, and maps (lines, nx) by their names in `Fields`: shear stress, and
@@ -83,7 +88,7 @@ def friction_result(problem, state, steady=True):
     contact, friction = problem.contact, problem.contact.friction
     shear, slides = shear_of(problem, state), friction.slide_to_roll
     speed, total, stress = contact.speed, shear.sliding_force, shear.stress
-    beyond = contact.drag_beyond(problem.grid.mesh, flows_out_whole(problem, state)) if steady else 0.0
+    rolled, sheared = _beyond(problem, state) if steady else (0.0, 0.0)
     load = problem.load_share * contact.load
     dragged = total if slides > 0.0 else -total
     sliding = friction.sliding_speed(speed)
@@ -96,7 +101,8 @@ def friction_result(problem, state, steady=True):
         film_coefficient=shear.film_force / load,
         solid_coefficient=shear.solid_force / load,
         rolling_coefficient=shear.rolling_force / load,
-        rolling_beyond=beyond / load,
+        rolling_beyond=rolled / load,
+        sliding_beyond=sheared / load,
         force_1_N=-dragged - shear.rolling_force,
         force_2_N=dragged - shear.rolling_force,
         rolling_N=-shear.rolling_force,
@@ -107,6 +113,13 @@ def friction_result(problem, state, steady=True):
     )
     maps = {"shear": stress} if slides else {}
     return result, maps | ({"flash_1": rise.first, "flash_2": rise.second} if rise else {})
+
+
+def _beyond(problem, state):
+    """What rolling and sliding take from the bodies beyond the domain."""
+    contact, where = problem.contact, (problem.grid.mesh, flows_out_whole(problem, state))
+    slides = contact.friction.slide_to_roll != 0.0
+    return contact.drag_beyond(*where), contact.shear_beyond(*where) if slides else 0.0
 
 
 def _temperatures(problem, state, rise):
@@ -161,9 +174,12 @@ def friction_lines(friction, verbose):
     if not friction.slide_to_roll:
         yield f"friction 0: the surfaces do not slide; {rolling}"
         return
+    sheared, more = friction.sliding_beyond, ""
+    if sheared > TOLD * friction.coefficient:
+        more = f" (and {sheared:.2g} beyond the domain, were it flooded)"
     yield (
         f"friction {coefficient_words(friction)} ({friction.model}): film "
-        f"{friction.film_coefficient:.5f}, solids {friction.solid_coefficient:.5f}; {rolling}; "
+        f"{friction.film_coefficient:.5f}{more}, solids {friction.solid_coefficient:.5f}; {rolling}; "
         f"{friction.power_loss_W:.3g} W{unit}, largest shear {friction.largest_shear_MPa:.4g} MPa"
     )
     yield from strength_lines(friction.largest_shear_MPa)

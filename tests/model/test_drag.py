@@ -1,3 +1,4 @@
+from dataclasses import replace
 from math import log, pi
 
 import numpy as np
@@ -5,9 +6,17 @@ import pytest
 from contacts import contact_of, moes
 from scipy.integrate import simpson
 
-from mgehl.model.drag import kapitza_drag_beyond, kapitza_factor, line_drag_beyond
+from mgehl.discretization.mesh import Mesh
+from mgehl.model.drag import (
+    kapitza_drag_beyond,
+    kapitza_factor,
+    line_drag_beyond,
+    line_shear_beyond,
+    point_shear_beyond,
+)
 from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
+from mgehl.model.rheology import Friction, Limiting, Newtonian
 
 
 def test_drag_beyond_grows_with_the_logarithm_of_the_domain():
@@ -45,3 +54,35 @@ def test_what_drags_between_two_domains_is_the_integral_between_them():
     unit = 6.0 * LINE.lubricant.viscosity * LINE.speed * LINE.x_scale / LINE.film_scale
     near, far = (line_drag_beyond(LINE, (-end, 1.0), False) for end in (2.0, 4.0))
     assert near - far == pytest.approx(unit * between, rel=1e-6)
+
+
+SLIDES = Friction(slide_to_roll=0.5)
+
+
+def test_what_is_sheared_beside_a_ball_grows_with_the_logarithm_of_the_domain():
+    """Far away h = r^2/2R: of half a plane eta dU 2 pi R ln 2 between two squares, one twice as wide."""
+    ball = replace(contact_of(moes(3.0, 2.0)), friction=SLIDES)
+    square, twice = (-60.0, 60.0), (-120.0, 120.0)
+    near, far = (point_shear_beyond(ball, ends, ends, False) for ends in (square, twice))
+    eta_dU = ball.lubricant.viscosity * 0.5 * ball.speed
+    assert near - far == pytest.approx(eta_dU * 2.0 * pi * ball.radius_x * log(2.0), rel=0.02)
+    both = point_shear_beyond(ball, square, square, True)
+    assert both == pytest.approx(2.0 * near)
+
+
+def test_what_is_sheared_beside_a_line_is_the_integral():
+    line = replace(LINE, friction=SLIDES)
+    X, dX = np.linspace(2.0, 4.0, 20001, retstep=True)
+    gap = line.flooded_film + line.film_scale * line.dry_gap(X, None)
+    between = 0.5 * 0.5 * 0.05 * line.x_scale * simpson(1.0 / gap, dx=dX)
+    near, far = (line_shear_beyond(line, (-end, 1.0), False) for end in (2.0, 4.0))
+    assert near - far == pytest.approx(between, rel=1e-6)
+
+
+@pytest.mark.parametrize("contact", [LINE, contact_of(moes(3.0, 2.0))], ids=["line", "ball"])
+def test_oil_with_a_limit_resists_no_more_than_a_part_of_the_pressure_around(contact):
+    """There is none, so it is nothing."""
+    limit = Friction(Limiting(0.05, Newtonian()), slide_to_roll=0.5)
+    mesh = Mesh(65, 65, (-3.0, 2.0), (-2.0, 2.0))
+    assert replace(contact, friction=limit).shear_beyond(mesh) == 0.0
+    assert replace(contact, friction=SLIDES).shear_beyond(mesh) > 0.0
