@@ -89,6 +89,7 @@ def implausible(config, contact):
     yield from _turned_axes(config)
     yield from _without_temperatures(config)
     yield from _parts_from_rest(config)
+    yield from _either_body(config)
     yield from _odd_steps(config, contact)
     yield from _leaps(config)
     if config.lubricant.oil is not None:
@@ -248,6 +249,18 @@ def _parts_from_rest(config):
         "contact.boundary_film is not given: bodies at rest part on films as thin as rounding; until they "
         "have parted, load on contact and friction mean nothing; 2 nm is usual"
     )
+
+
+def _either_body(config):
+    """A coating on one of two bodies that are not alike, and nobody says on which."""
+    if config.contact.deformation != "coated" or config.coating.substrate_modulus is not None:
+        return
+    first, second = ((body.material, body.modulus, body.poisson) for body in (config.body_1, config.body_2))
+    if first != second:
+        yield (
+            "coating.substrate_modulus is not given: half of both bodies' compliance counts as that of the "
+            "coated one, and these differ"
+        )
 
 
 def _range(section, p_h):

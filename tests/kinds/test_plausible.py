@@ -146,6 +146,15 @@ def test_a_run_in_time_says_that_it_tells_no_temperatures():
     assert not any("no temperatures" in line for line in odd(BALL | bodies))
 
 
+@pytest.mark.parametrize("other, is_odd", [("aluminium", True), ("steel", False)])
+def test_a_coating_on_either_of_two_bodies_says_what_it_takes(other, is_odd):
+    coated = {"contact.deformation": "coated", "coating.thickness": 1e-5, "coating.modulus": 4e9}
+    bodies = {"body_1.material": "steel", "body_2.material": other}
+    assert any("substrate_modulus is not given" in line for line in odd(BALL | bodies | coated)) == is_odd
+    told = {"coating.substrate_modulus": 206e9}
+    assert not any("substrate_modulus is not" in line for line in odd(BALL | bodies | coated | told))
+
+
 @pytest.mark.parametrize("oil, is_odd", [({}, True), ({"lubricant.conductivity": 0.13}, False)])
 def test_flash_temperatures_say_what_they_take_of_an_oil_that_tells_no_conductivity(oil, is_odd):
     bodies = {f"heat.{key}_{body}": value for body in (1, 2) for key, value in STEEL.items()}
