@@ -126,7 +126,7 @@ def _recipe(case):
     from mgehl.solver.recipe_words import recipe_words
 
     yield ""
-    words = recipe_words(set_up(case).recipe(), case.contact.is_plane, begins_at_rest(case.config))
+    words = recipe_words(set_up(case).recipe(), case.contact.is_line, begins_at_rest(case.config))
     yield from _under("recipe", words)
 
 

@@ -61,7 +61,7 @@ class LoadedKind(Kind):
 
     def settled(self, config, contact):
         """With numbers where the domain is "auto"."""
-        names = [name for name in ("x" if contact.is_plane else "xy") if getattr(config.grid, name) == AUTO]
+        names = [name for name in ("x" if contact.is_line else "xy") if getattr(config.grid, name) == AUTO]
         if not names:
             return config
         ends = dict(zip("xy", self._domain(config, contact), strict=True))
@@ -107,9 +107,9 @@ class LoadedKind(Kind):
 
     def _check_in_all_directions(self, config, contact, heaviest):
         """The domain must be large enough for every direction of a run in time, under the heaviest load."""
-        ways, wide = (1.0, -1.0)[: 1 + time.reverses(config)], heaviest.x_scale / contact.x_scale
-        for way, turned in product(ways, time.towards_all(config, heaviest)):
-            loaded_checks.check_domain(config.grid, turned, way, wide)
+        senses, wide = (1.0, -1.0)[: 1 + time.reverses(config)], heaviest.x_scale / contact.x_scale
+        for sense, turned in product(senses, time.towards_all(config, heaviest)):
+            loaded_checks.check_domain(config.grid, turned, sense, wide)
 
     def check_fluid(self, grid, contact):
         """Laws must give numbers; the domain must be large enough for contact and inlet."""

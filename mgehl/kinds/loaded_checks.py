@@ -41,7 +41,7 @@ def check_size(key, size, radii, part):
 def on_the_bodies(config, contact):
     """(Axis, semi-axis of the dry contact, smaller radius of the bodies) in m, where these tell theirs.
     Bodies that conform are wide apart by their reduced radius, and may be no half-spaces all the same."""
-    wide = {"x": contact.hertz.a, "y": contact.hertz.b} if not contact.is_plane else {"x": contact.hertz.a}
+    wide = {"x": contact.hertz.a, "y": contact.hertz.b} if not contact.is_line else {"x": contact.hertz.a}
     for axis, radius in smallest_radii(config).items():
         yield axis, contact.widening * wide[axis], radius
 
@@ -87,10 +87,10 @@ def check_exponent(contact):
         )
 
 
-def check_domain(grid, contact, way=1.0, wide=1.0):
-    """The contact must lie in the domain, and so must the inlet upstream of it. `way` is -1 for surfaces
-    that have turned round, `wide` the contact's semi-axes over those of the grid."""
-    length = way * contact.inlet_length
+def check_domain(grid, contact, sense=1.0, wide=1.0):
+    """The contact must lie in the domain, and so must the inlet upstream of it. A `sense` of -1 is that of
+    surfaces that have turned round, `wide` the contact's semi-axes over those of the grid."""
+    length = sense * contact.inlet_length
     inlets = contact.motion[0] * length, contact.motion[1] * length * contact.k_e
     for (name, ends), inlet in zip(_sides(grid, contact), inlets, strict=False):
         needed, side = wide * (contact.reach + abs(inlet)), None
@@ -121,4 +121,4 @@ def check_reach(grid, contact, wide=1.0):
 
 def _sides(grid, contact):
     """Names and ends of the domain's axes."""
-    return (("x", grid.x),) if contact.is_plane else (("x", grid.x), ("y", grid.y))
+    return (("x", grid.x),) if contact.is_line else (("x", grid.x), ("y", grid.y))

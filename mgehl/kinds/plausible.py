@@ -165,7 +165,7 @@ def _pressure(contact):
 
 
 def _films(config, contact):
-    if not contact.is_plane and contact.aligned.radius_x > SLENDER * contact.aligned.radius_y:
+    if not contact.is_line and contact.aligned.radius_x > SLENDER * contact.aligned.radius_y:
         yield (
             "the contact is far longer along the motion than it is wide: film formulas, lambda and the "
             "regime are made for others, and off by half"

@@ -76,7 +76,7 @@ def parts_of(config):
 
 def check_surfaces(config, contact, mesh):
     """Raise ConfigError unless every surface covers the contact with heights that a ball may have."""
-    radius = min(config.contact.radius_x, np.inf if contact.is_plane else config.contact.radius_y)
+    radius = min(config.contact.radius_x, np.inf if contact.is_line else config.contact.radius_y)
     x, y = mesh.X * contact.x_scale, mesh.Y * contact.y_scale
     for key, surface in parts_of(config):
         with _naming(key):
@@ -159,7 +159,7 @@ def _check_size(key, surface, contact, when=""):
     if not isinstance(file, Measured):
         return
     turn = np.linspace(0.0, 2.0 * np.pi, 73)
-    across = 0.0 if contact.is_plane else contact.y_scale
+    across = 0.0 if contact.is_line else contact.y_scale
     x, y = contact.reach * contact.x_scale * np.cos(turn), contact.reach * across * np.sin(turn)
     missing = ~surface.reaches(x, y)
     if missing.any():

@@ -154,7 +154,7 @@ class WedgeKind(Kind):
         The outermost nodes lie on open sides, and half a cell from walls."""
         nodes = config.grid.nodes
         x, edges = contact.placement(nodes)
-        if contact.is_plane:
+        if contact.is_line:
             return Mesh(nodes, 1, x, (0.0, 0.0), edges=edges)
         half = 0.5 * contact.width / contact.y_scale
         half *= (nodes - 1) / nodes if contact.closed_sides else 1.0

@@ -35,7 +35,7 @@ def check_pad(wedge):
 def check_on_grid(wedge, contact, mesh, nodes):
     """The pad is a plate, its gap, its pillar and its pocket are larger than cells of the grid."""
     length, (dx, dy) = wedge.ends[1] - wedge.ends[0], cell_of(contact, mesh)
-    is_plate = contact.is_plane or 1.0 / LARGEST_ASPECT <= wedge.width / length <= LARGEST_ASPECT
+    is_plate = contact.is_line or 1.0 / LARGEST_ASPECT <= wedge.width / length <= LARGEST_ASPECT
     words = f"must be within a factor of {LARGEST_ASPECT:g} of the pad's length of {length:g}"
     _demand(is_plate, wedge, "width", words)
     least = FEWEST_CELLS * dx

@@ -55,7 +55,7 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
 
     is_loaded = True
     """The gap answers to the pressure, whose integral is a load."""
-    is_plane = False
+    is_line = False
     """It has no end across the motion."""
     counted_beyond = 0.0
     """Part of the load carried beyond the domain that the film within is spared, 0 to 1."""
@@ -199,7 +199,7 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         """The `HertzUnder` of `share` times the load, in this contact's units."""
         contact = self.under(share)
         reach = contact.x_scale / self.x_scale
-        area = self.contact_area * (reach if self.is_plane else reach**2)
+        area = self.contact_area * (reach if self.is_line else reach**2)
         return HertzUnder(contact, reach, share * self.load_integral, area)
 
     def at_speed(self, speed):

@@ -32,7 +32,7 @@ class LineContact(LoadedContact):
     tears: bool = True
     """Whether film tears where nothing is left of the pressure around."""
 
-    is_plane = True
+    is_line = True
 
     load_integral = pi / 2.0
     """The integral of P over X: that of sqrt(1 - X^2)."""

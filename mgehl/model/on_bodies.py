@@ -52,7 +52,7 @@ class OnBodies:
             return 0.0
         dx, dy = STEP * self.x_scale, STEP * self.y_scale
         squares = np.mean((self._sampled(dx, 0.0) - self._sampled(-dx, 0.0)) ** 2) / (2.0 * dx) ** 2
-        if not self.is_plane:
+        if not self.is_line:
             squares += np.mean((self._sampled(0.0, dy) - self._sampled(0.0, -dy)) ** 2) / (2.0 * dy) ** 2
         return float(np.sqrt(squares))
 
@@ -82,10 +82,10 @@ class OnBodies:
         """So many that the shortest wave has `FEWEST`."""
         if self.surface is None:
             return SAMPLES
-        found, most = SAMPLES, MOST_OF_A_LINE if self.is_plane else MOST_SAMPLES
-        X, longest = np.linspace(-1.0, 1.0, most), max(self.x_scale, 0.0 if self.is_plane else self.y_scale)
+        found, most = SAMPLES, MOST_OF_A_LINE if self.is_line else MOST_SAMPLES
+        X, longest = np.linspace(-1.0, 1.0, most), max(self.x_scale, 0.0 if self.is_line else self.y_scale)
         shortest = self.surface.shortest(
-            X * self.x_scale, X[:1] * 0.0 if self.is_plane else X * self.y_scale
+            X * self.x_scale, X[:1] * 0.0 if self.is_line else X * self.y_scale
         )
         while found < most and 2.0 * longest / (found - 1) > shortest / FEWEST:
             found = 2 * found - 1
@@ -96,7 +96,7 @@ class OnBodies:
         if self.surface is None:
             return np.zeros(1)
         X = np.linspace(-1.0, 1.0, samples or self._samples_a_side)[None, :]
-        Y = np.zeros((1, 1)) if self.is_plane else X.T
+        Y = np.zeros((1, 1)) if self.is_line else X.T
         heights = self.surface.height(X * self.x_scale + dx, Y * self.y_scale + dy)
         inside = X**2 + Y**2 <= 1.0
         return np.broadcast_to(heights, inside.shape)[inside]

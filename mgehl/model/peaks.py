@@ -30,7 +30,7 @@ def reach_of_peaks(contact, film):
 def _nodes(contact, X, Y):
     """Where heights are looked at: X (1, nx) and Y (ny, 1)."""
     side = np.linspace(-1.0, 1.0, NODES)
-    return X * side[None, :], np.zeros((1, 1)) if contact.is_plane else Y * side[:, None]
+    return X * side[None, :], np.zeros((1, 1)) if contact.is_line else Y * side[:, None]
 
 
 def _over_film(contact, film, X, Y):

@@ -83,7 +83,7 @@ def _rooms(starvation, share, nodes):
     downstream = max(downstream, min(starvation.way_behind(share), 0.5 * resolved) - hertz.a)
     for_load = min(by_load[0], resolved - downstream - hertz.a) - hertz.a
     upstream = max(hertz.a * NEAREST, hertz.a * starvation.upstream.way(share / powers[0]), for_load)
-    if contact.is_plane:
+    if contact.is_line:
         return upstream, 0.0, downstream
     for_load = min(by_load[1], 0.5 * resolved) - hertz.b
     beside = max(hertz.b * NEAREST, hertz.b * starvation.beside.way(share / powers[1]), for_load)

@@ -127,7 +127,7 @@ class Starvation:
         a, b, wide = contact.x_scale, contact.y_scale, contact.widening
         along_x = [Side(toward, wide * a, a) for toward in (c, -c)]
         return (
-            along_x if contact.is_plane else [*along_x, *(Side(toward, wide * b, b) for toward in (s, -s))]
+            along_x if contact.is_line else [*along_x, *(Side(toward, wide * b, b) for toward in (s, -s))]
         )
 
     @cached_property
@@ -153,7 +153,7 @@ class Starvation:
     @cached_property
     def powers(self):
         """Those of the reduced pressure (upstream, beside), for the central and for the minimum film."""
-        L, wide = self.like.groups.L, inf if self.contact.is_plane else 1.0 / self.like.k_e
+        L, wide = self.like.groups.L, inf if self.contact.is_line else 1.0 / self.like.k_e
         # Isoviscous films answer less to the pressure of the inlet.
         answer = 0.36 + 0.96 * L / (L + 5.0)
         answer *= 1.0 - (1.0 - COUNTED) * self.contact.counted_beyond
@@ -163,18 +163,18 @@ class Starvation:
     @property
     def order(self):
         """Power of the distance with which the load beyond it falls."""
-        return 2 if self.contact.is_plane else 1
+        return 2 if self.contact.is_line else 1
 
     @cached_property
     def by_load(self):
         """-ln of the film left without the load beyond a side, times its distance in m to the `order`.
         Upstream and beside."""
         like = self.like
-        x, y = like.radius_x, inf if self.contact.is_plane else like.radius_y
+        x, y = like.radius_x, inf if self.contact.is_line else like.radius_y
         share = self._answer_to_load * kapitza_factor(like.lubricant, like.speed, x, y) * x / like.load
         unknown = min(UNKNOWN * max(1.0, 1.0 / like.k_e) ** UNKNOWN_BY_WIDTH, 1.0)
         share *= 1.0 - (1.0 - unknown) * self.contact.counted_beyond
-        if self.contact.is_plane:
+        if self.contact.is_line:
             return LINE_OUTSIDE * share * 2.0 * x, 0.0
         return OUTSIDE * share * 2.0 * pi * sqrt(x * y), OUTSIDE * share * 4.0 * y
 
@@ -185,7 +185,7 @@ class Starvation:
         like = self.like
         if not like.held:
             return inf
-        y = inf if self.contact.is_plane else like.radius_y
+        y = inf if self.contact.is_line else like.radius_y
         K = kapitza_factor(like.lubricant, like.speed, like.radius_x, y)
         return (4.0 * K * like.radius_x**2 / like.held) ** (1.0 / 3.0)
 
@@ -194,7 +194,7 @@ class Starvation:
         as much as presses upstream; where film is torn, no more than the pressure around."""
         whole = max(way, self.torn_until)
         torn = 1.0 - way / whole
-        torn = 2.0 * torn if self.contact.is_plane else torn * (1.0 - 0.5 * torn)
+        torn = 2.0 * torn if self.contact.is_line else torn * (1.0 - 0.5 * torn)
         return self.by_load[0] / whole**self.order * (1.0 + torn)
 
     def way_behind(self, lost):
@@ -209,7 +209,7 @@ class Starvation:
     def _answer_to_load(self):
         """Power of the load with which the film falls: of a rigid one, where that is the thickest."""
         like = self.like
-        if self.contact.is_plane:
+        if self.contact.is_line:
             rigid, elastic, *piezoviscous = like.asymptotes
             return 1.0 / (1.0 + (max(elastic, min(piezoviscous)) / rigid) ** LIGHT)
         rigid, elastic, *_ = like.asymptotes

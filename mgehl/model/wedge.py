@@ -141,7 +141,7 @@ class WedgeBearing:
         return self.ambient_pressure / self.pressure_scale
 
     @property
-    def is_plane(self):
+    def is_line(self):
         """Whether nothing varies across the motion."""
         whole = self.pocket is None or self.pocket.width >= self.width
         return self.closed_sides and whole and self.pillar == "none"

@@ -76,7 +76,7 @@ def _of_domain(solution):
         if edge.too_few:
             yield "more nodes, or a smaller domain: the contact has too few nodes"
         return
-    names = "x" if solution.contact.is_plane else "xy"
+    names = "x" if solution.contact.is_line else "xy"
     open_grid = replace(config.grid, **dict.fromkeys(names, AUTO))
     auto = settled(replace(config, grid=open_grid), solution.contact).grid
     ends = {name: getattr(config.grid, name) for name in names}

@@ -14,7 +14,7 @@ from mgehl.discretization import status
 from mgehl.errors import one_line
 from mgehl.grid.events import FILES, event
 from mgehl.kinds.time import ONLY_IN_TIME, own_courses
-from mgehl.output.center_line import center_line
+from mgehl.output.centre_line import centre_pressure
 from mgehl.output.laws import portable
 from mgehl.output.netcdf import PLANES, netcdf_file, put
 from mgehl.version import VERSION
@@ -23,7 +23,7 @@ NAMES = CONFIGURATION, RESULT, HISTORY, FIELDS, PICTURE, CENTER_LINE, SERIES, FR
     "configuration.toml", "result.json", "history.csv", "fields.h5", "picture.png", "centerline.csv",
     "series.nc", "frames.nc",
 )  # fmt: skip
-"""The files of a run directory; a center line is a wedge's, series and frames are of a run in time."""
+"""The files of a run directory; a centre line is a wedge's, series and frames are of a run in time."""
 
 CHECKPOINT = "checkpoint"
 """Folder of what a run that has not finished has reached."""
@@ -76,7 +76,7 @@ def _sendable(error):
 
 
 def texts_of(solution):
-    """{name: text} of the files of a run that are text: configuration, result, history, a center line."""
+    """{name: text} of the files of a run that are text: configuration, result, history, a centre line."""
     told = plain_result(solution.result) | {INPUTS: solution.config.inputs}
     texts = {
         CONFIGURATION: tomli_w.dumps(portable(solution.config)),
@@ -86,7 +86,7 @@ def texts_of(solution):
         ),
     }
     if not solution.contact.is_loaded:
-        X, P = center_line(solution.mesh, solution.fields)  # [Liu eq. 44] along Y = 0, nan in a pillar
+        X, P = centre_pressure(solution.mesh, solution.fields)  # [Liu eq. 44] along Y = 0, nan in a pillar
         texts[CENTER_LINE] = _table([["X_mm", "P"], *zip(X.tolist(), P.tolist(), strict=True)])
     return texts
 

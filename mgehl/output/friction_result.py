@@ -109,7 +109,7 @@ def friction_result(problem, state, steady=True):
         power_loss_W=total * sliding + 2.0 * speed * shear.rolling_force,
         largest_shear_MPa=1e-6 * problem.grid.max(stress),
         temperatures=rise and _temperatures(problem, state, rise),
-        per_metre=contact.is_plane,
+        per_metre=contact.is_line,
     )
     maps = {"shear": stress} if slides else {}
     return result, maps | ({"flash_1": rise.first, "flash_2": rise.second} if rise else {})

@@ -102,7 +102,7 @@ def row_of(instant, standing, problem, scene, convolutions, seconds):
 def _gone(instant, standing, scene):
     """The direction of the motion where it changes, and the path."""
     x, y = (1e6 * part for part in standing.path)
-    path = {"path_um": x} if scene.contact.is_plane else {"path_x_um": x, "path_y_um": y}
+    path = {"path_um": x} if scene.contact.is_line else {"path_x_um": x, "path_y_um": y}
     return ({"angle_deg": scene.angle.value(instant.t)} if scene.turns else {}) | path
 
 

@@ -68,7 +68,7 @@ def surface_lines(config, contact, mesh):
     yield f"           {wave}{surface_words(verdict, nodes)}{_recommended(verdict, nodes, mesh)}"
     still = "" if config.is_in_time else "; the rough body stands still, the other has 2 u"
     yield f"           a peak is positive and lowers the gap{still}"
-    if contact.is_plane and contact.surface.varies_along((0.0, 1.0)):
+    if contact.is_line and contact.surface.varies_along((0.0, 1.0)):
         yield "           heights are those at y = 0, as if they were the same all along y"
     for key, part in parts_of(config):
         yield from _part_lines(key, part, contact, mesh)

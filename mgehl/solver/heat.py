@@ -38,7 +38,7 @@ def rise_of(problem, state, shear):
 def has_temperatures(contact):
     """Whether a contact has flash temperatures: a band of heat on a body at rest grows for ever."""
     slides, stands = contact.friction.slide_to_roll, abs(contact.friction.slide_to_roll) == 2.0
-    return bool(slides) and contact.solids is not None and not (contact.is_plane and stands)
+    return bool(slides) and contact.solids is not None and not (contact.is_line and stands)
 
 
 def _rises(contact, mesh, heat, resistance):

@@ -5,7 +5,7 @@ from scipy.interpolate import CubicSpline
 
 from mgehl.discretization.couette import SCHEMES
 from mgehl.model.wedge_series import WedgeSeries
-from mgehl.output.center_line import center_line
+from mgehl.output.centre_line import centre_pressure
 from mgehl.output.pictures import style, wedge_picture
 from mgehl.studies.columns import told
 from mgehl.studies.limits import order_of_errors
@@ -51,7 +51,7 @@ def run(study):
     study.write_table("convergence", rows)
     study.draw("figure_7", pressure_map, solutions["square pillar"])
     study.draw("figure_8", pressure_map, solutions["cylindrical pillar"])
-    study.draw("figure_9", center_lines, solutions)
+    study.draw("figure_9", centre_lines, solutions)
     study.draw("figure_10", untreated, solutions)
 
 
@@ -102,7 +102,7 @@ def _convergence(study, shape, couette, nodes, exact):
 
 def relative_errors(solution, exact):
     """Of P at `PLACES` on the centre line, and of the load."""
-    X, P = center_line(solution.mesh, solution.fields)
+    X, P = centre_pressure(solution.mesh, solution.fields)
     if solution.contact.turned:
         X, P = -X[::-1], P[::-1]
     at_places = CubicSpline(X, P)(PLACES)
@@ -118,12 +118,12 @@ def pressure_map(solution):
     return figure
 
 
-def center_lines(solutions):
+def centre_lines(solutions):
     """Figure 9: all four cases on Y = 0, the blocked exit's series as marks."""
     figure, axes = style.subplots(size=(6.8, 4.4))
     for shape, colour in COLOURS.items():
         dash = "--" if shape == "no blockage" else "-"
-        line = center_line(solutions[shape].mesh, solutions[shape].fields)
+        line = centre_pressure(solutions[shape].mesh, solutions[shape].fields)
         axes.plot(*line, dash, color=colour, label=shape)
     X = np.linspace(20.0, 48.0, 15)
     series = WedgeSeries(20.0, 50.0, 20.0, True)
@@ -141,7 +141,7 @@ def untreated(solutions):
         for shape in PILLARS:
             for case, dash, label in (("", "-", shape), (", untreated", "--", f"{shape}, NTCF")):
                 solution = solutions[f"{shape}{turned}{case}"]
-                line = center_line(solution.mesh, solution.fields)
+                line = centre_pressure(solution.mesh, solution.fields)
                 axes.plot(*line, dash, color=COLOURS[shape], label=label)
         _finish(axes, title)
     figure.suptitle("Figure 10: scheme 1B with and without treatment of the Couette flow (NTCF)")

@@ -27,7 +27,7 @@ def test_it_is_large_enough_and_three_quarters_of_its_room_are_not(tables):
         rooms = [0.75 * (abs(end) - 1.0) for end in ends]
         return -1.0 - rooms[0], 1.0 + max(rooms[1], NEAREST)
 
-    assert found.lost(nearer(x), y if found.contact.is_plane else nearer(y)) > ALLOWED
+    assert found.lost(nearer(x), y if found.contact.is_line else nearer(y)) > ALLOWED
 
 
 @pytest.mark.parametrize("tables", CASES)

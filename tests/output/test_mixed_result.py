@@ -101,7 +101,10 @@ def test_the_filling_is_that_of_cavities_within_the_ellipse(contact, nodes):
 
 def test_heights_are_about_the_mean_that_sq_is_of(contact, make_problem):
     """A surface that lies higher has the same valleys."""
-    level, found = SimpleNamespace(height=lambda x, y: WAVES.height(x, y) + 1e-6), []
+    level, found = (
+        SimpleNamespace(height=lambda x, y: WAVES.height(x, y) + 1e-6, shortest=WAVES.shortest),
+        [],
+    )
     for surface in (WAVES, level):
         problem = make_problem(contact=replace(contact, surface=surface), nodes=33)
         H = 1.0 + np.arange(33.0**2).reshape(33, 33)

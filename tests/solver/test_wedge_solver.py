@@ -8,7 +8,7 @@ from mgehl.config import config_from_tables
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.wedge_series import WedgeSeries
-from mgehl.output.center_line import center_line
+from mgehl.output.centre_line import centre_pressure
 from mgehl.solver.from_config import scheme_from
 from mgehl.solver.verification import complementarity_error, flux_imbalance
 from mgehl.solver.wedge import solve_wedge
@@ -20,9 +20,9 @@ SHAPES = ("blocked exit", "no blockage")
 PILLARS = ("square pillar", "cylindrical pillar")
 
 
-def film_on_center_line(solved):
+def film_on_centre_line(solved):
     """X, counted from where the gap would close, and P of the fluid on Y = 0."""
-    X, P = center_line(solved.mesh, solved.fields)
+    X, P = centre_pressure(solved.mesh, solved.fields)
     if solved.contact.turned:
         X, P = -X[::-1], P[::-1]
     return X[~np.isnan(P)], P[~np.isnan(P)]
@@ -117,7 +117,7 @@ class TestUntreatedCouetteFlow:
 
 def test_pressures_at_the_inlet_are_in_the_order_of_figure_9():
     """ "Greater for the square-pillar blockage, followed by the cylinder-pillar, the exit, and none"."""
-    at_45 = [np.interp(45.0, *film_on_center_line(solution(shape))) for shape in (*PILLARS, *SHAPES)]
+    at_45 = [np.interp(45.0, *film_on_centre_line(solution(shape))) for shape in (*PILLARS, *SHAPES)]
     assert at_45 == sorted(at_45, reverse=True)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.linalg import solve_banded
 
 from mgehl.config import load_config
-from mgehl.output.center_line import center_line
+from mgehl.output.centre_line import centre_pressure
 from mgehl.studies.study import BEST, merged
 
 FILE = Path(__file__).parents[2] / "configs" / "pocket.toml"
@@ -120,7 +120,7 @@ def case(nodes, couette="3B", size=None):
 
 def pressures(solution):
     """x in m and the pressure in Pa on the centre line."""
-    X, P = center_line(solution.mesh, solution.fields)
+    X, P = centre_pressure(solution.mesh, solution.fields)
     return X * solution.contact.x_scale, P * solution.contact.pressure_scale
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from mgehl.errors import UserError
-from mgehl.output.center_line import center_line
+from mgehl.output.centre_line import centre_pressure
 from mgehl.output.pictures import wedge_picture
 from mgehl.output.pictures.history import column, cycles, grids
 from mgehl.output.pictures.lines import ANYWHERE, line_of, names, set_axes, unit_of
@@ -70,7 +70,7 @@ def compare_histories(solutions, labels):
 def _compare_bearings(solutions, labels):
     figure, axes = subplots(size=(7.4, 4.8))
     for solution, label, style in zip(solutions, labels, _styles(), strict=False):
-        axes.plot(*center_line(solution.mesh, solution.fields), label=label, **style)
+        axes.plot(*centre_pressure(solution.mesh, solution.fields), label=label, **style)
     axes.axhline(0.0, color=GUIDE, linewidth=0.8, zorder=0)
     axes.margins(x=0.0)
     axes.set(xlabel="X, mm", ylabel=wedge_picture.UNIT, title="centre line")

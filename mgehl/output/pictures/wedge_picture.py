@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.colors import Normalize
 
 from mgehl.discretization.status import CONTACT
-from mgehl.output.center_line import center_line
+from mgehl.output.centre_line import centre_pressure
 from mgehl.output.pictures import style
 from mgehl.output.pictures.maps import colour_bar, draw_cavities, draw_image, finish
 from mgehl.output.pictures.plane import Plane
@@ -74,7 +74,7 @@ def _unit(bearing):
 
 def _draw_line(axes, solution):
     mesh, (unit, name) = solution.mesh, _unit(solution.contact)
-    X, P = center_line(mesh, solution.fields)
+    X, P = centre_pressure(mesh, solution.fields)
     axes.plot(X, unit * P, color=style.PRESSURE)
     axes.axhline(0.0, color=style.GUIDE, linewidth=0.8, zorder=0)
     axes.set(xlabel="X, mm", ylabel=name, title="centre line", xlim=mesh.edges)

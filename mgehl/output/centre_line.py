@@ -5,7 +5,7 @@ import numpy as np
 from mgehl.discretization.status import CONTACT
 
 
-def center_line(mesh, fields):
+def centre_pressure(mesh, fields):
     """X and P of the nodes nearest to Y = 0, between the pad's edges; P is NaN in a pillar.
 
     The ambient pressure acts at the edge of the pad, not at the node half a cell outside, which is
