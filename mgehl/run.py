@@ -160,28 +160,44 @@ class _LoadedSolve:
 
     def in_a_steady_state(self):
         """Its `Solution` by either method."""
-        task, monitor = self._task, self.monitor
-        contact, settings = task.contact, task.settings
-        by_newton = settings.method == "newton-mg"
+        problem, outcome, steps = self._solved()
+        result = summarise(problem, outcome, self._tolerance, self._making(steps))
+        beside = Beside(replace(self._task, monitor=self.monitor.beside), problem, outcome.state)
+        result = replace(result, **self._bands(result, beside), recipe=self._recipe(outcome))
+        friction, maps = self._friction(problem, outcome, self.case.contact.angle)
+        friction = self._compared(friction, result, beside)
+        result = replace(result, friction=friction, wall_s=self.monitor.seconds)
+        return self._solution(problem, outcome, result, maps)
+
+    def _solved(self):
+        """Problem, `Outcome` and number of steps."""
+        task, by_newton = self._task, self.parts.settings.method == "newton-mg"
         method = begin if by_newton else single_loop
         if self.start:
             method = partial(solve_from, start=self.start, frame=self.parts.frame)
         problem, outcome = method(task)
-        if by_newton:
-            outcome = close_account(task, problem, outcome)
-        making = self._making(monitor.steps if by_newton else outcome.cycles[-1].step)
-        result = summarise(problem, outcome, self._tolerance, making)
-        beside = Beside(replace(task, monitor=monitor.beside), problem, outcome.state)
-        mixed = result.mixed and replace(result.mixed, error=gap_error(result, beside, monitor))
-        bands = {"mixed": mixed, "error": film_error(result, beside, monitor)}
-        friction, maps = friction_result(problem, outcome.state)
-        friction = with_moments(friction, arms(self.case.config, self.case.contact.angle))
-        friction = banded(friction, mixed, contact.friction.boundary_coefficient)
-        if friction and contact.friction.thins and settings.error:
-            friction = with_unthinned(friction, result, beside.unthinned)
-        told = bands | {"friction": friction, "recipe": self._recipe(outcome)}
-        result = replace(result, **told, wall_s=monitor.seconds)
-        return self._solution(problem, outcome, result, maps)
+        if not by_newton:
+            return problem, outcome, outcome.cycles[-1].step
+        outcome = close_account(task, problem, outcome)
+        return problem, outcome, self.monitor.steps
+
+    def _bands(self, result, beside):
+        """{part of the result: it with its bands}."""
+        mixed = result.mixed and replace(result.mixed, error=gap_error(result, beside, self.monitor))
+        return {"mixed": mixed, "error": film_error(result, beside, self.monitor)}
+
+    def _friction(self, problem, outcome, angle, steady=True):
+        """The `FrictionResult` of surfaces that go at an `angle`, and its maps."""
+        friction, maps = friction_result(problem, outcome.state, steady)
+        return with_moments(friction, arms(self.case.config, angle)), maps
+
+    def _compared(self, friction, result, beside):
+        """A `FrictionResult` with its band, and with the films that shear would not thin."""
+        settings, of_contact = self._task.settings, self._task.contact.friction
+        friction = banded(friction, result.mixed, of_contact.boundary_coefficient)
+        if friction and of_contact.thins and settings.error:
+            return with_unthinned(friction, result, beside.unthinned)
+        return friction
 
     def in_time(self):
         """Its `Solution` at the end of a run in time."""
@@ -195,8 +211,7 @@ class _LoadedSolve:
         if monitor.rows:
             t = monitor.rows[-1]["time_s"]
             now = problem.moving(case.scene.speed.value(t))
-            friction, maps = friction_result(now, outcome.state, steady=False)
-            friction = with_moments(friction, arms(case.config, case.scene.angle.value(t)))
+            friction, maps = self._friction(now, outcome, case.scene.angle.value(t), steady=False)
         result = replace(result, friction=friction, recipe=self._recipe(outcome))
         return replace(self._solution(problem, outcome, result, maps), frames=diary.frames)
 
