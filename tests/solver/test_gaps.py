@@ -80,6 +80,17 @@ def test_of_a_state_and_its_differences_from_a_finer_grid_s(make_problem, paper_
     assert gaps(problem, state.P, np.abs(state.H - (state.H + 0.25 * sign))) == pytest.approx((0.25, 0.25))
 
 
+@pytest.mark.parametrize("height, crest", [(2.9, 0.95), (1.5, 0.025)])
+def test_a_spike_counts_where_it_may_be_the_largest(make_problem, paper_contact, height, crest):
+    """A node that stands out of 1, beside a paraboloid that bends by .025 in a cell and is 4 high."""
+    problem = make_problem(paper_contact(1.0), nodes=17, scheme=Scheme())
+    i, j = np.arange(17.0)[None, :], np.arange(17.0)[:, None]
+    P = np.maximum(4.0 - 0.05 * ((i - 6.0) ** 2 + (j - 6.0) ** 2), 1.0)
+    P[14, 14] = height
+    status = np.where(problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
+    assert loads(problem, problem.state(P, 0.5, status, P)).crest == pytest.approx(crest)
+
+
 def test_loads_and_their_differences_from_a_finer_grid_s(make_problem, paper_contact):
     """Two nodes of contact on either grid, one of them common; solids carry half of it."""
     problem = make_problem(paper_contact(1.0), nodes=9, scheme=Scheme())
