@@ -13,6 +13,7 @@ from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import Case, case_of, checked_case
 from mgehl.kinds.bodies import arms
 from mgehl.kinds.own import naming_keys
+from mgehl.kinds.time import of_formulas
 from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint, begin_run
 from mgehl.output.diary import Diary
@@ -212,7 +213,8 @@ class _LoadedSolve:
             t = monitor.rows[-1]["time_s"]
             now = problem.moving(case.scene.speed.value(t))
             friction, maps = self._friction(now, outcome, case.scene.angle.value(t), steady=False)
-        result = replace(result, friction=friction, recipe=self._recipe(outcome))
+        formulas_of = of_formulas(case.config).removeprefix(", ")
+        result = replace(result, friction=friction, recipe=self._recipe(outcome), formulas_of=formulas_of)
         return replace(self._solution(problem, outcome, result, maps), frames=diary.frames)
 
     def without_a_fluid(self):

@@ -100,6 +100,7 @@ def test_what_is_exported_is_of_the_end(course):
     told = {name: number[0] for name, number in slower.config.kind.scalars(slower).items()}
     assert (told["speed"], told["normal_load"]) == pytest.approx((0.03, load))
     assert told["moes_M"] == pytest.approx(there.groups.M)
+    assert slower.summary.formulas_of == "at the largest speed" and solved().summary.formulas_of == ""
     H = 1e-9 * slower.summary.central_film_nm * there.moes_scale
     assert slower.summary.moes_film.central == pytest.approx(H)
     friction = np.average(column(slower, "friction"), weights=column(slower, "step_s"))

@@ -45,6 +45,11 @@ class Course:
         """Times at which its slope changes: a step in time ends there."""
         return ()
 
+    def bend(self, begin, end, until):
+        """Largest part of its range `until` a time by which it leaves a straight line between two times, at
+        which it has no kink."""
+        return 0.0
+
     def times(self, end):
         """Times from 0 to `end` between which it does not turn, as far as it is known."""
         return tuple(map(float, np.linspace(0.0, end, SAMPLES)))
@@ -170,10 +175,29 @@ class Own(Course):
 
     function: OwnFunction
 
+    @cached_property
+    def _asked(self):
+        """{time: (times, values) until then}."""
+        return {}
+
+    def _until(self, end):
+        if end not in self._asked:
+            times = np.linspace(0.0, end, SAMPLES)
+            self._asked[end] = times, np.array([self.value(t) for t in times])
+        return self._asked[end]
+
     def check(self, end):
         """Raise OwnFunctionError unless it gives numbers from 0 to `end`."""
         self.function.check_arguments("t")
         self.range(end)
+
+    def bend(self, begin, end, until):
+        times, values = self._until(until)
+        inside, spread = (times > begin) & (times < end), np.ptp(values)
+        if not spread or not inside.any():
+            return 0.0
+        line = np.interp(times[inside], [begin, end], [self.value(begin), self.value(end)])
+        return float(np.abs(values[inside] - line).max() / spread)
 
     def value(self, t):
         value = float(self.function.array((), t))

@@ -125,6 +125,10 @@ class Scene:
         """Times at which something changes suddenly: a step in time ends there."""
         return *self.speed.kinks(), *self.load.kinks(), *self.angle.kinks()
 
+    def bend(self, begin, end):
+        """Largest part of its range by which speed, load or angle leaves a straight line meanwhile."""
+        return max(each.bend(begin, end, self.end) for each in (self.speed, self.load, self.angle))
+
     def passage(self, share=1.0, angles=None):
         """Way in m of the mean surface on which all heights that move go the length of the Hertz contact
         under `share` times the load: as it is along `angles` in degrees, an array, or the first motion.

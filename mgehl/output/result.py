@@ -156,6 +156,8 @@ class Result:
     moes_film: MoesFilm | None = None
     formulas: dict | None = None
     """Films that formulas predict, by name in nm: those made for such bodies, of oil with this density."""
+    formulas_of: str = ""
+    """Of which load, speed and direction of a run in time groups and formulas are; empty where of all."""
     mixed: MixedResult | None = None
     """Film and contact of rough bodies; None of smooth ones."""
     friction: FrictionResult | None = None

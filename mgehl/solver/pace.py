@@ -22,6 +22,10 @@ AIM = 2e-3
 GROWTH, LEAST_GROWTH = 1.5, 0.3
 """Of a step over the one before: more is unstable by the second backward formula (2.4), or seldom right."""
 
+STRAIGHT = 0.05
+"""Part of its range by which a function of time may leave a straight line within a step: a wave has seven
+steps."""
+
 HALVINGS = 10
 """Times that a step is halved before a run is given up."""
 
@@ -70,14 +74,16 @@ class Pace:
         return min(found * LEAST_CELLS / cells, GROWTH * before)
 
     def fitted(self, t, step):
-        """As much of a step as time is left, up to the next kink, and as surfaces may go cells."""
+        """As much of a step as time is left, up to the next kink, as surfaces may go cells, and as speed,
+        load and angle go straight on: what happens within a step is not seen."""
         left = self.scene.end - t
         kinks = [kink - t for kink in self.scene.kinks()]
         # The end of a table may be that of the run but for rounding.
         kinks = [each for each in kinks if each < left - ROUNDED * self.scene.end]
         ends = [each for each in (left, *kinks) if each > JUST * self.scene.end]
-        step = self._in_cells(t, step)
-        nearest = min(ends)
+        step, nearest = self._in_cells(t, step), min(ends)
+        while self.scene.bend(t, t + min(step, nearest)) > STRAIGHT:
+            step = 0.5 * min(step, nearest)
         if step >= nearest * (1.0 - JUST):
             return nearest
         # No crumb is left over.

@@ -61,3 +61,5 @@ def test_a_function_of_ones_own(tmp_path):
     course = Own(OwnFunction(f"{tmp_path}/mine.py:speed"))
     assert course.value(2.0) == 12.0
     assert course.integral(1.0, 2.0) == pytest.approx(7.0)
+    # Of values from 0 to 27 a straight line from 1 s to 2 s is at most 3/4 above the curve.
+    assert course.bend(1.0, 2.0, 3.0) == pytest.approx(0.75 / 27.0, rel=1e-3)

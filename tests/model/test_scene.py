@@ -120,3 +120,16 @@ def test_a_step_that_is_asked_for_is_cut_to_the_cells_that_a_film_bears(cells, t
     cell = mesh.dX * found.framed.x_scale / 0.1
     pace = Pace(found, mesh, cells * cell)
     assert pace.fitted(0.0, pace.first()) == pytest.approx(taken * cell)
+
+
+def test_no_step_goes_over_what_a_function_of_time_does(tmp_path):
+    """A load that is three times as large for 20 us of 1 ms: steps of 100 us saw nothing of it."""
+    pulse = "20.0 * (1.0 + 2.0 * np.exp(-(((t - 5.3e-4) / 1e-5) ** 2)))"
+    (tmp_path / "mine.py").write_text(f"import numpy as np\ndef load(t):\n    return {pulse}\n")
+    times = {"contact.load": f"{tmp_path}/mine.py:load", "time.end": 1e-3, "motion.speed": 0.01}
+    found = scene(times)
+    pace, t, seen = Pace(found, Mesh(65, 65, (-2.0, 2.0), (-2.0, 2.0)), 1e-4), 0.0, []
+    while t < found.end * (1.0 - 1e-9):
+        t += pace.fitted(t, 1e-4)
+        seen.append(found.load.value(t))
+    assert max(seen) > 0.9 * 60.0 and len(seen) < 40
