@@ -13,6 +13,10 @@ FILMS = ("central", "minimum")
 BETTER = {"couette": "3B", "face_mobility": "logarithmic"}
 """The scheme whose coarser grids give the error of a film by a scheme of first order."""
 
+ALTERNATING = "2C", "S2C"
+"""Central schemes of the Couette flow, which nothing keeps from a film of two alternating ones: the nodes
+that nested grids have in common are all of one."""
+
 POISEUILLE_ORDER = 2
 """Order of the Poiseuille flow by any mean of the mobility: no film converges faster."""
 
@@ -65,11 +69,21 @@ def why_no_band(result, contact):
     return ""
 
 
+def why_no_band_by(problem, result):
+    """Why the scheme of a `problem` gives films no band; empty where it may."""
+    scheme, nm = problem.scheme, 1e9 * problem.contact.film_scale
+    if scheme.couette in ALTERNATING:
+        return f"by {scheme.couette} films alternate from node to node, on every grid alike"
+    if not scheme.contact_law.has_contact and result.minimum_film_nm < nm * scheme.contact_law.thinnest:
+        return "the film is thinner than discretization.unified_gap, by which it is made"
+    return ""
+
+
 def film_error(result, beside, progress):
     """The `FilmError` of a `Result`, by what is solved `Beside` it (collective). `progress` counts the
     convolutions."""
     settings = beside.settings
-    why_not = why_no_band(result, beside.problem.contact)
+    why_not = why_no_band(result, beside.problem.contact) or why_no_band_by(beside.problem, result)
     if why_not or not settings.error:
         return no_band(why_not) if why_not else NOT_ASKED
     before, scheme = progress.convolutions, settings.scheme

@@ -1,6 +1,7 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
 from mgehl.output.digits import pressure_words, with_band
+from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.friction_result import friction_lines
 from mgehl.output.mixed_words import filling_words, mixed_lines
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words, inlet_words
@@ -32,7 +33,15 @@ def where_to_read(result):
     """The line that says where to read on, in a list; empty where the answer can be used as it is."""
     if not result.converged:
         return [FAILED]
-    return [UNRESOLVED] if result.resolution and result.resolution.verdict != "resolved" else []
+    is_coarse = result.resolution and result.resolution.verdict != "resolved"
+    return [UNRESOLVED] if is_coarse or _contact_is_the_grids(result) else []
+
+
+def _contact_is_the_grids(result):
+    """Whether rough bodies touch, and grids that were compared tell no load on contact."""
+    error = result.mixed and result.mixed.error
+    compared = error and not result.time and error.how != NOT_ASKED.how
+    return bool(compared and result.mixed.patches and error.contact_load_share is None)
 
 
 def _bearing_lines(result):

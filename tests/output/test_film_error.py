@@ -5,7 +5,9 @@ import pytest
 from contacts import solved
 from made_solution import make_result
 
-from mgehl.output.film_error import from_grids, why_no_band
+from mgehl.discretization.contact_law import BoundaryFilm, UnifiedEquations
+from mgehl.discretization.scheme import Scheme
+from mgehl.output.film_error import from_grids, why_no_band, why_no_band_by
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import ContactResult, Overlap
 from mgehl.solver.films import GridFilm
@@ -61,6 +63,21 @@ class TestWhetherThereIsOne:
     )  # fmt: skip
     def test_otherwise_it_is_said_why_not(self, film, changes, word):
         assert word in why_no_band(replace(film, **changes), SMOOTH)
+
+    @pytest.mark.parametrize(
+        "scheme, word",
+        [
+            (Scheme("2C"), "by 2C films alternate"),
+            (Scheme("3B", contact_law=UnifiedEquations(0.011)), "thinner than discretization.unified_gap"),
+            (Scheme("3B", contact_law=UnifiedEquations(0.009)), ""),
+            (Scheme("3B", contact_law=BoundaryFilm(0.011)), ""),
+        ],
+    )
+    def test_nor_by_a_scheme_that_alternates_or_a_gap_that_makes_the_film(self, film, scheme, word):
+        """Of 10 nm, where a unit of H has a micrometre."""
+        problem = SimpleNamespace(scheme=scheme, contact=SimpleNamespace(film_scale=1e-6))
+        found = why_no_band_by(problem, film)
+        assert word in found and bool(word) == bool(found)
 
     def test_where_the_next_grid_has_no_answer_there_is_none(self, film):
         error = from_grids(film, grids(10.0, 8.0, settled=False), 2)

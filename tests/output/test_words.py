@@ -1,4 +1,5 @@
 import re
+from dataclasses import replace
 
 import pytest
 from made_solution import in_time, make_result
@@ -6,6 +7,8 @@ from mpi4py import MPI
 from places import ROOT
 
 import mgehl
+from mgehl.output.gap_error import no_band
+from mgehl.output.mixed_result import MixedResult
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import Mean
 from mgehl.output.time_words import mean_words
@@ -60,6 +63,18 @@ class TestWhereToReadOn:
     @pytest.mark.parametrize("verdict", ["coarse", "grid-determined", "starved"])
     def test_of_a_film_that_is_not_resolved(self, verdict):
         assert str(make_result(resolution=Resolution(0.5, verdict))).splitlines()[-1] == f"  {UNRESOLVED}"
+
+    @pytest.mark.parametrize(
+        "patches, share, is_said", [(7, None, True), (7, 0.02, False), (0, None, False)]
+    )
+    def test_where_rough_bodies_touch_as_the_grid_has_it(self, patches, share, is_said):
+        """The inlet may be resolved all the same."""
+        error = replace(no_band("on 257 nodes no state settled"), contact_load_share=share)
+        touching = 0.25, 80.0, 0.125, 0.875, 3e-9, 0.0625, patches, 1e-9, 40.0, None, 90.0, 0.015
+        result = make_result(
+            resolution=Resolution(5.0, "resolved"), mixed=MixedResult(*touching, error=error)
+        )
+        assert (str(result).splitlines()[-1] == f"  {UNRESOLVED}") == is_said
 
 
 class TestOfALoadedContact:
