@@ -1,6 +1,7 @@
 """Direct solve of the bordered Jacobian on the coarsest grid, on the last rank, which has the border."""
 
 import warnings
+from functools import cache, partial
 
 import numpy as np
 from scipy.linalg import LinAlgWarning, lu_factor, lu_solve
@@ -10,12 +11,13 @@ from mgehl.discretization.influence import influence_coefficients
 from mgehl.grid.events import COARSE, event
 from mgehl.multigrid.stencil_matrix import stencil_rows
 
-PRECISION = np.float32
-"""Of the factors: doubles take more than twice the time, half of a step's on 65 nodes."""
+OF_A_LINE, OF_A_PLANE = (np.float64,), (np.float32, np.float64)
+"""Precisions of the factors, in turn. A line contact's are never good enough in single: 3 of 80 rollers
+were not found."""
 
-REFINED = 1
-"""Times that a solution is refined by what it leaves in double precision: without it domains that cut the
-contact are lost, where mobilities differ most."""
+GIVEN_BACK = 1e-3
+"""How far a known solution may be off that single precision gives back; else it is double's turn, which
+takes more than twice the time, half of a step's on 65 nodes."""
 
 
 class CoarseSolve:
@@ -26,7 +28,9 @@ class CoarseSolve:
         self._jacobian = jacobian
         if jacobian.space.owns_border:
             self._K = dense_influence(jacobian.grid.mesh, jacobian.contact.kernel)
-            self._room = np.empty((jacobian.grid.mesh.nodes + 1) ** 2, dtype=PRECISION)
+            # New memory would take a third of the time.
+            self._room = cache(partial(np.empty, (jacobian.grid.mesh.nodes + 1) ** 2))
+            self._precisions = OF_A_LINE if jacobian.grid.mesh.is_line else OF_A_PLANE
 
     @event(COARSE)
     def gather(self):
@@ -49,7 +53,9 @@ class CoarseSolve:
             warnings.simplefilter("ignore", LinAlgWarning)
             masks = self._given.ravel(), self._moves.ravel()
             weight = self._jacobian.load_weight
-            self._invert = DenseInverse(self._A, self._B, self._K, weight, *masks, self._room)
+            self._invert = DenseInverse(
+                self._A, self._B, self._K, weight, *masks, self._room, self._precisions
+            )
 
     @event(COARSE)
     def solve(self, r, load):
@@ -77,27 +83,43 @@ class DenseInverse:
     """LU of A + B K with its border, A and B sparse and K dense.
 
     It is that of the nodes whose pressure is not `given`, (nodes,) bool: half of them in contact at low
-    speed. It stands in `room`, (nodes + 1)^2 numbers: new memory would take a third of the time.
+    speed. It stands in `room(precision)`, (nodes + 1)^2 numbers. Factors in single precision are refined
+    once by what they leave in doubles: without that domains that cut the contact are lost.
     """
 
-    def __init__(self, A, B, K, load_weight, given, moves, room):
+    def __init__(self, A, B, K, load_weight, given, moves, room, precisions=OF_A_PLANE):
         self._given, self._free = given, np.flatnonzero(~given)
         self._of_given, self._moves = A.diagonal()[given], np.where(given, 1.0, moves)
         self._A, self._B, self._K, self._load_weight = A[self._free], B[self._free], K, load_weight
+        for self._precision in precisions:
+            self._lu = self._factored(room(self._precision))
+            if self._precision is precisions[-1] or self._gives_back():
+                break
+
+    def _factored(self, room):
+        """Factors in the precision of a `room`."""
         size = len(self._free) + 1
         matrix = room[: size * size].reshape(size, size)
         stencils = [(each.indptr, each.indices, each.data) for each in (self._A, self._B)]
-        fill_bordered(matrix, self._free, moves, *stencils, K, load_weight)
+        fill_bordered(matrix, self._free, self._moves, *stencils, self._K, self._load_weight)
         # LAPACK counts along columns: to it this is the transpose, which it factors in its place.
-        self._lu = lu_factor(matrix.T, overwrite_a=True, check_finite=False)
+        return lu_factor(matrix.T, overwrite_a=True, check_finite=False)
+
+    def _gives_back(self):
+        """Whether a known solution, 1 at each free node, comes back."""
+        known = np.append(np.where(self._given, 0.0, 1.0), 1.0)
+        found = self._solved(-self._missing(np.zeros_like(known), known))
+        return np.abs(found - 1.0).max() <= GIVEN_BACK
+
+    def _solved(self, right):
+        return lu_solve(self._lu, right.astype(self._precision), trans=1, check_finite=False)
 
     def __call__(self, whole):
         """The solution, (nodes + 1,) as the right-hand side; H0 and the load come last."""
         solution = np.zeros_like(whole)
         solution[:-1][self._given] = whole[:-1][self._given] / self._of_given
-        for _ in range(1 + REFINED):
-            missing = self._missing(whole, solution).astype(PRECISION)
-            found = lu_solve(self._lu, missing, trans=1, check_finite=False)
+        for _ in range(2 if self._precision is np.float32 else 1):
+            found = self._solved(self._missing(whole, solution))
             solution[self._free] += found[:-1]
             solution[-1] += found[-1]
         return solution

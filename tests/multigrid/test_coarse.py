@@ -1,9 +1,10 @@
 import numpy as np
 import pytest
+from scipy import sparse
 
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT
-from mgehl.multigrid.coarse import CoarseSolve
+from mgehl.multigrid.coarse import CoarseSolve, DenseInverse
 
 NODES = 33
 
@@ -64,3 +65,16 @@ def test_it_follows_the_linearisation(make_problem, states, make_jacobian, inver
     state = states["contact"]
     jacobian.linearise(problem.evaluate(state), problem.rows(state.status))
     assert_same(*invert(problem, jacobian, coarse))
+
+
+@pytest.mark.parametrize("bent", [False, True])
+def test_what_single_precision_does_not_give_back_is_solved_in_doubles(bent):
+    """A string, and a plate of condition 1e9: rollers that were solved so were not found."""
+    n = 200
+    string = sparse.diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(n, n), format="csr")
+    A, nothing = string @ string if bent else string + sparse.identity(n, format="csr"), np.zeros(n, bool)
+    inverse = DenseInverse(A, sparse.identity(n, format="csr"), np.zeros((n, n)), 0.5, nothing, np.ones(n),
+                           lambda precision: np.empty((n + 1) ** 2, precision))  # fmt: skip
+    known = np.random.default_rng(3).standard_normal(n + 1)
+    right = np.append(A @ known[:-1] + known[-1], 0.5 * known[:-1].sum())
+    np.testing.assert_allclose(inverse(right), known, rtol=0.0, atol=1e-6 if bent else 1e-12)
