@@ -1,6 +1,7 @@
 """One run from a configuration to its directory."""
 
 import time
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -27,18 +28,18 @@ from mgehl.output.gap_error import gap_error
 from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
 from mgehl.output.result import Making, Work
-from mgehl.output.solution import Fields, Solution, on_every_rank
+from mgehl.output.solution import Solution, on_every_rank
 from mgehl.output.summary import summarise, summarise_in_time
 from mgehl.output.surroundings import versions
-from mgehl.output.users_axes import in_users_axes
-from mgehl.output.wedge_summary import summarise_wedge
+from mgehl.output.users_axes import solution_of
+from mgehl.output.wedge_summary import load_band, summarise_wedge
 from mgehl.solver.beginning import begin
 from mgehl.solver.beside import Beside
 from mgehl.solver.closing import close_account
 from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import SetUp, set_up
 from mgehl.solver.in_time import march
-from mgehl.solver.journal import Journal, told_to_stop
+from mgehl.solver.journal import Asked
 from mgehl.solver.nested import single_loop
 from mgehl.solver.on_grid import LevelSolve
 from mgehl.solver.recipe_words import plain
@@ -244,7 +245,7 @@ class _LoadedSolve:
         """What is told of the way: the checkpoint of a directory, if there is one."""
         watch = self.watch
         if not watch.directory:
-            return _Asked(watch.stop)
+            return Asked(watch.stop)
         return Checkpoint(watch.directory, self.case.config, self.monitor, watch.save_every, watch.stop)
 
     def _making(self, steps):
@@ -257,43 +258,40 @@ class _LoadedSolve:
         return plain(self.parts.recipe(self.start, outcome.begins))
 
     def _solution(self, problem, outcome, result, maps=None):
-        return _solution(self.case, self.parts, problem, outcome.state, self.monitor.rows, result, maps)
-
-
-class _Asked(Journal):
-    """Keeps nothing, but may be told to stop."""
-
-    def __init__(self, stop):
-        self._stop = stop
-
-    def step(self, grid, position):
-        """Raise the `Stopped` of whoever was told."""
-        if stopped := told_to_stop(grid.comm, self._stop):
-            raise stopped
+        return solution_of(self.case, self.parts, problem, outcome.state, self.monitor.rows, result, maps)
 
 
 def _solve_bearing(case, parts, comm, watch):
     """A rigid bearing."""
     started = time.perf_counter()
-    bearing, settings = parts.contact, parts.settings
-    limits = settings.newton.tolerance, settings.newton.max_steps
-    grid = single_grid(parts.mesh, comm)
-    try:
-        # Nothing is kept of a bearing: it is solved in seconds.
-        stop = partial(_Asked(watch.stop).step, grid, None)
-        problem, outcome = solve_wedge(grid, bearing, settings.scheme, *limits, stop)
-        result = summarise_wedge(problem, outcome, time.perf_counter() - started, versions())
+    with _solved_bearing(parts, comm, watch) as (problem, outcome):
+        result = summarise_wedge(problem, outcome, 0.0, versions())
         rows = progress.wedge_rows(parts.mesh.nx, outcome.cycles)
         for row in rows:
             watch.speaker.row(row)
-        return _solution(case, parts, problem, outcome.state, rows, result)
+        band = load_band(result, lambda: _load_on_coarser(case, comm, watch))
+        result = replace(result, **band, wall_s=time.perf_counter() - started)
+        return solution_of(case, parts, problem, outcome.state, rows, result)
+
+
+@contextmanager
+def _solved_bearing(parts, comm, watch):
+    """Problem and `Outcome` of a bearing, while its grid is there. Nothing is kept: it takes seconds."""
+    grid, limits = single_grid(parts.mesh, comm), parts.settings.newton
+    try:
+        stop = partial(Asked(watch.stop).step, grid, None)
+        yield solve_wedge(
+            grid, parts.contact, parts.settings.scheme, limits.tolerance, limits.max_steps, stop
+        )
     finally:
         grid.destroy()
 
 
-def _solution(case, parts, problem, state, rows, result, maps=None):
-    """The `Solution` of a final state (collective)."""
-    fields = state.P, state.H, state.status, state.p, state.filling, problem.heights
-    whole = Fields(*fields, **(maps or {})).gathered(problem.grid)
-    found = Solution(case.config, parts.contact, problem.grid.mesh, whole, rows, result, state.H0)
-    return in_users_axes(found, parts.frame, case)
+def _load_on_coarser(case, comm, watch):
+    """(Nodes, load in N) of the same bearing on half as many nodes; the load is None where it has none
+    there. Raises ConfigError where the grid is too coarse for it."""
+    nodes = (case.config.grid.nodes + 1) // 2
+    coarser = set_up(checked_case(case.config.with_({"grid.nodes": nodes})))
+    with _solved_bearing(coarser, comm, watch) as (problem, outcome):
+        result = summarise_wedge(problem, outcome, 0.0, {})
+        return nodes, result.load_N if result.converged else None

@@ -184,6 +184,9 @@ class Result:
     load: float = None
     """Integral of P over X and Y."""
     load_N: float = None
+    load_band_N: float | None = None
+    """Half-width of the load's band; None where there is none: `load_band_how` says why, or by what."""
+    load_band_how: str = ""
     max_P: float = None
     min_P: float = None
     max_pressure_MPa: float = None

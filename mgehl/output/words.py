@@ -44,9 +44,15 @@ def _contact_is_the_grids(result):
     return bool(compared and result.mixed.patches and error.contact_load_share is None)
 
 
+def _load_in_N(result):
+    """A bearing's load with its band."""
+    band = result.load_band_N
+    return f"{with_band(result.load_N, band)} N" if band else f"{result.load_N:.4g} N"
+
+
 def _bearing_lines(result):
     yield (
-        f"load {result.load:.6f} mm ({result.load_N:.4g} N), P from {result.min_P:.6f} to "
+        f"load {result.load:.6f} mm ({_load_in_N(result)}), P from {result.min_P:.6f} to "
         f"{result.max_P:.6f} /mm (at most {result.max_pressure_MPa:.4g} MPa)"
     )
     if result.min_P < 0.0:

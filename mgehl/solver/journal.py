@@ -22,6 +22,18 @@ class Journal:
         """Take note of the `outcome`, the end of a solve."""
 
 
+class Asked(Journal):
+    """Keeps nothing, but may be told to stop."""
+
+    def __init__(self, stop):
+        self._stop = stop
+
+    def step(self, grid, position):
+        """Raise the `Stopped` of whoever was told."""
+        if stopped := told_to_stop(grid.comm, self._stop):
+            raise stopped
+
+
 def told_to_stop(comm, stop):
     """The `Stopped` that `stop` returns on any rank, else None (collective). A signal may reach one rank
     only, and clocks differ."""

@@ -1,0 +1,35 @@
+import pytest
+from contacts import solved
+from made_solution import make_result
+
+from mgehl.errors import ConfigError
+from mgehl.output.wedge_summary import BY_CELLS, load_band
+
+PILLAR = {"contact": {"kind": "wedge"}, "wedge": {"pillar": "square"}, "motion": {"speed": 1.0}}
+
+
+def of(nodes):
+    return solved(PILLAR, {"grid": {"nodes": nodes}}).result
+
+
+def test_a_bearing_s_load_has_a_band_by_every_other_node():
+    """The next finer grid's lies within: a square pillar's edges jump by cells."""
+    coarse, fine = of(65), of(129)
+    assert fine.load_band_N == pytest.approx(BY_CELLS * abs(fine.load_N - coarse.load_N))
+    assert abs(of(257).load_N - fine.load_N) < fine.load_band_N
+    assert " ± " in str(fine).splitlines()[1] and fine.load_band_how.endswith("to 65 nodes")
+    assert coarse.load_band_N is None and "too coarse: grid.nodes = 33" in coarse.load_band_how
+
+
+def refuse():
+    raise ConfigError("wedge.pillar_size = 1: has less than two cells")
+
+
+@pytest.mark.parametrize(
+    "converged, solve, why",
+    [(False, None, "has not converged"), (True, refuse, "two cells"),
+     (True, lambda: (65, None), "there is no answer")],
+)  # fmt: skip
+def test_where_it_has_none_it_says_why(converged, solve, why):
+    found = load_band(make_result(converged=converged, load_N=1.0), solve)
+    assert why in found["load_band_how"] and "load_band_N" not in found
