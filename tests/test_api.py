@@ -66,7 +66,7 @@ def test_what_a_file_does_not_give_is_warned_of(tmp_path):
         mgehl.load(tmp_path / "my.toml", {"contact.load": 100.0})
     assert len(told) == 1 and not any(key in str(told[0].message) for key in ("radius_x", "load", "speed"))
     with catch_warnings():
-        simplefilter("error")
+        simplefilter("error", UserWarning)
         mgehl.load(None, FILM), mgehl.load(CONFIGS / "wavy.toml")
 
 
