@@ -192,9 +192,9 @@ def _arm(body):
 
 
 def arms(config, angle):
-    """Distance of the contact from the axis about which either body rolls towards an `angle` in degrees, in
-    m: the radius along that way, or rotation_radius. None of flat bodies, and where it is along neither
-    axis and the radii differ."""
+    """Distance of the contact from either body's axis in m, the motion being at an `angle` in degrees: the
+    radius along the motion, or rotation_radius. None of a body that is flat that way, or whose radii differ
+    where the motion is along neither."""
     bodies = config.body_1, config.body_2
     radii = zip(*_own_radii(bodies, config.contact.kind).values(), strict=True)
     return [_arm_towards(angle % 180.0, *each) for each in zip(bodies, radii, strict=True)]

@@ -83,11 +83,10 @@ class OnBodies:
         if self.surface is None:
             return SAMPLES
         found, most = SAMPLES, MOST_OF_A_LINE if self.is_line else MOST_SAMPLES
-        X, longest = np.linspace(-1.0, 1.0, most), max(self.x_scale, 0.0 if self.is_line else self.y_scale)
-        shortest = self.surface.shortest(
-            X * self.x_scale, X[:1] * 0.0 if self.is_line else X * self.y_scale
-        )
-        while found < most and 2.0 * longest / (found - 1) > shortest / FEWEST:
+        X = np.linspace(-1.0, 1.0, most)
+        x, y = X * self.x_scale, np.zeros(1) if self.is_line else X * self.y_scale
+        shortest, finest = self.surface.shortest(x, y), max(step_of(x), step_of(y))
+        while found < most and finest * (most - 1) / (found - 1) > shortest / FEWEST:
             found = 2 * found - 1
         return found
 

@@ -12,8 +12,8 @@ from mgehl.grid.events import COARSE, event
 from mgehl.multigrid.stencil_matrix import stencil_rows
 
 OF_A_LINE, OF_A_PLANE = (np.float64,), (np.float32, np.float64)
-"""Precisions of the factors, in turn. A line contact's are never good enough in single: 3 of 80 rollers
-were not found."""
+"""Precisions of the factors, in turn. Those of a line between rough bodies are hardly ever good enough in
+single: 3 of 80 rollers were not found."""
 
 GIVEN_BACK = 1e-3
 """How far a known solution may be off that single precision gives back; else it is double's turn, which

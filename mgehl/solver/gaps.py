@@ -18,8 +18,8 @@ nodes. Spikes that a grid does not hold have 0.04 and more, others 0.0034 and le
 
 SPIKES_GROW = 3.0
 """Times what a parabola says by which the top of such a spike may lie above its node: what is lower by no
-more may be the largest pressure on a finer grid. A ball's had .64 GPa beside a plateau of .80 on 129 nodes,
-.93 on 513; by two it was left out."""
+more may be the largest pressure on a finer grid. A ball's had .64 GPa beside a middle of .80 on 129 nodes,
+.93 on 513."""
 
 
 @dataclass(frozen=True)
