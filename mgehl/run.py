@@ -1,7 +1,5 @@
 """One run from a configuration to its directory."""
 
-import time
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -9,7 +7,6 @@ from pathlib import Path
 import numpy as np
 from mpi4py import MPI
 
-from mgehl.grid.grid import single_grid
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import Case, case_of, checked_case
 from mgehl.kinds.bodies import arms
@@ -17,13 +14,19 @@ from mgehl.kinds.own import naming_keys
 from mgehl.kinds.time import of_formulas
 from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint, begin_run
-from mgehl.output.diary import Diary
+from mgehl.output.diary import Comparison, Diary
 from mgehl.output.directory import make_directory, prepare_directory
 from mgehl.output.dry_summary import summarise_dry
 from mgehl.output.film_error import film_error
 from mgehl.output.finish import finish_run
 from mgehl.output.forecast import check_memory
-from mgehl.output.friction_result import banded, friction_result, with_moments, with_unthinned
+from mgehl.output.friction_result import (
+    banded,
+    friction_result,
+    with_band,
+    with_moments,
+    with_unthinned,
+)  # fmt: skip
 from mgehl.output.gap_error import gap_error
 from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
@@ -31,21 +34,21 @@ from mgehl.output.result import Making, Work
 from mgehl.output.solution import Solution, on_every_rank
 from mgehl.output.summary import summarise, summarise_in_time
 from mgehl.output.surroundings import versions
+from mgehl.output.time_error import time_error, with_bands
 from mgehl.output.users_axes import solution_of
-from mgehl.output.wedge_summary import load_band, summarise_wedge
+from mgehl.run_bearing import solve_bearing
 from mgehl.solver.beginning import begin
 from mgehl.solver.beside import Beside
 from mgehl.solver.closing import close_account
 from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import SetUp, set_up
-from mgehl.solver.in_time import march
+from mgehl.solver.in_time import march, march_beside
 from mgehl.solver.journal import Asked
 from mgehl.solver.nested import single_loop
 from mgehl.solver.on_grid import LevelSolve
 from mgehl.solver.recipe_words import plain
 from mgehl.solver.restart import interpolated, solve_from
 from mgehl.solver.task import Task
-from mgehl.solver.wedge import solve_wedge
 
 
 @dataclass(frozen=True)
@@ -127,7 +130,7 @@ def _find(case, comm, watch, start):
     with naming_keys(case.contact), np.errstate(all="ignore"):  # what diverges says so itself
         parts = set_up(case)
         if not case.contact.is_loaded:
-            return _solve_bearing(case, parts, comm, watch)
+            return solve_bearing(case, parts, comm, watch)
         hierarchy = parts.hierarchy(comm)
         try:
             return _find_on(hierarchy, case, parts, watch, start)
@@ -214,9 +217,31 @@ class _LoadedSolve:
             t = monitor.rows[-1]["time_s"]
             now = problem.moving(case.scene.speed.value(t))
             friction, maps = self._friction(now, outcome, case.scene.angle.value(t), steady=False)
+            error = self._time_error(result, problem, task)
+            result = with_bands(result, problem.contact, error)
+            friction = with_band(friction, error.at_the_end.get("friction"))
         formulas_of = of_formulas(case.config).removeprefix(", ")
         result = replace(result, friction=friction, recipe=self._recipe(outcome), formulas_of=formulas_of)
+        result = replace(result, wall_s=monitor.seconds)
         return replace(self._solution(problem, outcome, result, maps), frames=diary.frames)
+
+    def _time_error(self, result, problem, task):
+        """The `TimeError` of a run in time by its `Task`."""
+        beside = partial(self._marched_beside, task)
+        asked = self.parts.settings.error
+        return time_error(result, problem, self.case.scene, asked, self.monitor, beside)
+
+    def _marched_beside(self, task):
+        """Rows of the same run on the next coarser grid; and why there are none to compare with, or ""."""
+        monitor, scene, grids = self.monitor, self.case.scene, self.hierarchy.grids
+        if len(grids) == 1:
+            return [], "there is no coarser grid"
+        times, nodes = [row["time_s"] for row in monitor.rows], grids[-2].mesh.nx
+        monitor.news(f"for its bands, the same on {nodes} nodes in steps of two")
+        told, task = Comparison(scene, times[-1], monitor), replace(task, journal=Asked(self.watch.stop))
+        outcome = march_beside(scene, task, times, told, self.start and (self.start, self.parts.frame))
+        why_not = "" if outcome.converged else f"on {nodes} nodes, the next coarser grid: {outcome.reason}"
+        return told.rows, why_not
 
     def without_a_fluid(self):
         """Its `Solution` as a dry contact."""
@@ -259,39 +284,3 @@ class _LoadedSolve:
 
     def _solution(self, problem, outcome, result, maps=None):
         return solution_of(self.case, self.parts, problem, outcome.state, self.monitor.rows, result, maps)
-
-
-def _solve_bearing(case, parts, comm, watch):
-    """A rigid bearing."""
-    started = time.perf_counter()
-    with _solved_bearing(parts, comm, watch) as (problem, outcome):
-        result = summarise_wedge(problem, outcome, 0.0, versions())
-        rows = progress.wedge_rows(parts.mesh.nx, outcome.cycles)
-        for row in rows:
-            watch.speaker.row(row)
-        band = load_band(result, lambda: _load_on_coarser(case, comm, watch))
-        result = replace(result, **band, wall_s=time.perf_counter() - started)
-        return solution_of(case, parts, problem, outcome.state, rows, result)
-
-
-@contextmanager
-def _solved_bearing(parts, comm, watch):
-    """Problem and `Outcome` of a bearing, while its grid is there. Nothing is kept: it takes seconds."""
-    grid, limits = single_grid(parts.mesh, comm), parts.settings.newton
-    try:
-        stop = partial(Asked(watch.stop).step, grid, None)
-        yield solve_wedge(
-            grid, parts.contact, parts.settings.scheme, limits.tolerance, limits.max_steps, stop
-        )
-    finally:
-        grid.destroy()
-
-
-def _load_on_coarser(case, comm, watch):
-    """(Nodes, load in N) of the same bearing on half as many nodes; the load is None where it has none
-    there. Raises ConfigError where the grid is too coarse for it."""
-    nodes = (case.config.grid.nodes + 1) // 2
-    coarser = set_up(checked_case(case.config.with_({"grid.nodes": nodes})))
-    with _solved_bearing(coarser, comm, watch) as (problem, outcome):
-        result = summarise_wedge(problem, outcome, 0.0, {})
-        return nodes, result.load_N if result.converged else None

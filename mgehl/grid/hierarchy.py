@@ -1,5 +1,7 @@
 """The grids of a run, coarsest first, with what connects them and the count of convolutions."""
 
+from copy import copy
+
 from mgehl.grid.convolution import Deflection
 from mgehl.grid.events import SETUP, event
 from mgehl.grid.freed_memory import give_back_large_arrays, is_large
@@ -33,6 +35,17 @@ class Hierarchy:
     def go_on(self, convolutions):
         """Count on from what a run had made before it was stopped."""
         self._made_before = convolutions - self._made_here
+
+    def coarser(self):
+        """The same without its finest grid, which counts from nothing; its grids go with these."""
+        rest = copy(self)
+        rest.grids, rest.transfers, rest.deflections = (
+            self.grids[:-1],
+            self.transfers[:-1],
+            self.deflections[:-1],
+        )
+        rest.go_on(0.0)
+        return rest
 
     def destroy(self):
         """Free the PETSc and MPI objects of the grids."""

@@ -65,6 +65,23 @@ class Diary:
             self._written = time.monotonic()
 
 
+class Comparison:
+    """Told of each step of a march beside the run's, until the end of that: its `rows` are not written."""
+
+    def __init__(self, scene, end, progress):
+        self._scene, self._end, self._progress = scene, end, progress
+        self._begun = progress.seconds
+        self.rows = []
+
+    def __call__(self, instant, standing, problem):
+        """Note a step; return why the march ends with it, in words, or "" """
+        progress = self._progress
+        row = row_of(instant, standing, problem, self._scene, progress.convolutions, progress.seconds)
+        self.rows.append(row)
+        progress.tell(row, (progress.seconds - self._begun) * (self._end - instant.t) / instant.t)
+        return "as far as the run" if instant.t >= self._end * (1.0 - JUST) else ""
+
+
 def _written(path, rows, title):
     """Write the series; where that fails a message says so, and the run goes on."""
     try:

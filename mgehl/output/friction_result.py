@@ -141,6 +141,13 @@ def banded(friction, mixed, boundary_coefficient):
     return replace(friction, coefficient_band=band, is_the_grids=error.is_the_grids("solid_load_fraction"))
 
 
+def with_band(friction, half_width):
+    """A `FrictionResult` with the band of surfaces that slide; `half_width` is None where there is none."""
+    if not (friction and friction.slide_to_roll):
+        return friction
+    return replace(friction, coefficient_band=half_width)
+
+
 def with_unthinned(friction, result, solve):
     """A `FrictionResult` with the films that there would be if shear did not thin it (collective).
     `solve()` returns that contact's problem and its `Outcome`."""

@@ -117,9 +117,9 @@ def from_grids(grids):
     slides = None not in on_both("friction")
     return GapError(
         mean,
-        _unless_wider(loaded, WIDEST * finest.loaded_nm),
+        unless_wider(loaded, WIDEST * finest.loaded_nm),
         f"from the differences to {coarser.nodes} nodes",
-        max_pressure_GPa=_unless_wider(pressure, WIDEST * finest.max_pressure_GPa),
+        max_pressure_GPa=unless_wider(pressure, WIDEST * finest.max_pressure_GPa),
         contact_load_share=share_half_width(*on_both("contact_load_share"), coarser.contact_load_apart),
         solid_load_fraction=share_half_width(*on_both("solid_load_fraction"), coarser.solid_load_apart),
         friction=half_width(*on_both("friction"), coarser.friction_apart, True) if slides else None,
@@ -130,16 +130,15 @@ def half_width(value, coarser, apart, touches=False):
     """Half-width of the band about a mean gap, or the largest pressure, from the `coarser` grid's and the
     mean size of the differences between their nodes; `touches` where the edge of contact decides on it."""
     difference = abs(value - coarser)
-    times = OF_FIRST_ORDER if touches or difference > ALIKE * value else OF_SECOND_ORDER
-    return max(times * difference + SPREAD * apart, SMALLEST * value)
+    times = OF_FIRST_ORDER if touches or difference > ALIKE * abs(value) else OF_SECOND_ORDER
+    return max(times * difference + SPREAD * apart, SMALLEST * abs(value))
 
 
 def share_half_width(share, coarser, apart):
     """The same of a part of the load, with the sum of its differences; None where that tells nothing."""
-    return _unless_wider(
-        max(OF_FIRST_ORDER * abs(share - coarser) + SPREAD * apart, SMALLEST), WIDEST_SHARE
-    )
+    return unless_wider(max(OF_FIRST_ORDER * abs(share - coarser) + SPREAD * apart, SMALLEST), WIDEST_SHARE)
 
 
-def _unless_wider(half_width, widest):
+def unless_wider(half_width, widest):
+    """A half-width; None of one that tells nothing."""
     return half_width if half_width <= widest else None

@@ -22,7 +22,7 @@ class Progress:
     def __call__(self, level, cycle):
         """Take one cycle."""
         if level.news and level.news != self._news:
-            self._speaker.news(level.news)
+            self.news(level.news)
             self._news = level.news
         row = self._row(self._kind, level, cycle)
         self.rows.append(row)
@@ -36,6 +36,14 @@ class Progress:
     def beside(self, level, cycle):
         """Tell of a Newton cycle that does not lead to the answer; the history does not keep it."""
         self._speaker.row(self._row(newton_row, level, cycle))
+
+    def tell(self, row, left):
+        """Tell of a row that the history does not keep, with the seconds that are left."""
+        self._speaker.row(row, left)
+
+    def news(self, words):
+        """Tell of what comes next."""
+        self._speaker.news(words)
 
     def _row(self, kind, level, cycle):
         speed = {} if level.speed is None else {"speed_mm_s": 1e3 * level.speed}

@@ -10,6 +10,7 @@ from mgehl.kinds.bodies import roughness_of
 from mgehl.kinds.choice import value_of
 from mgehl.output.files import INPUTS
 from mgehl.output.stored import read_texts
+from mgehl.output.time_words import both
 
 
 class Quantity(NamedTuple):
@@ -84,14 +85,14 @@ def of_what(result):
 def with_means(result):
     """The same result; of a run in time its means over the last passage are where the numbers of its last
     instant were. A run that has no means keeps those (`of_what`)."""
-    means = told_at(result, "time.means") or {}
+    means, bands = told_at(result, "time.means") or {}, told_at(result, "time.error.means") or {}
     for path in NO_MEANS if means else ():
         if told_at(result, path) is not None:
             _put_at(result, path, None)
     for name, mean in means.items():
         found = QUANTITIES[name]
         _put_at(result, found.path, mean["value"])
-        _put_at(result, found.band, mean["band"])
+        _put_at(result, found.band, both(mean["band"], bands.get(name)))
         if name in ALSO_AT:
             _put_at(result, ALSO_AT[name], mean["value"])
     return result

@@ -81,6 +81,21 @@ class Mean:
 
 
 @dataclass(frozen=True)
+class TimeError:
+    """Half-widths of bands by columns of series.nc: the limit of ever finer grids and ever shorter steps
+    lies within. A column that two grids tell too differently has none."""
+
+    how: str
+    means: dict[str, float] = field(default_factory=dict)
+    """About those over the last passage."""
+    whole: dict[str, float] = field(default_factory=dict)
+    """About those over the whole run."""
+    at_the_end: dict[str, float] = field(default_factory=dict)
+    convolutions: float = 0.0
+    """What the coarser grid took, in equivalents of one on the finest."""
+
+
+@dataclass(frozen=True)
 class TimeResult:
     """Of a run in time; the films and pressures beside it are those at its end."""
 
@@ -104,6 +119,8 @@ class TimeResult:
     """Of all steps; None in older results."""
     spikes: int = 0
     """Steps whose largest pressure is a spike that three nodes do not hold."""
+    error: TimeError | None = None
+    """The bands about its means; None in older results."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,28 +18,56 @@ def time_lines(time):
     )
     yield f"oil: storage and flow close to {time.largest_closure:.1e} of what is stored in every step"
     if time.means:
-        pressure, friction = time.means["max_pressure_GPa"], time.means["friction"]
-        yield (
-            f"over the last passage: mean gap {mean_words(time.means['mean_gap_nm'])} nm, largest pressure "
-            f"{pressure_words(pressure.value, pressure.band or None)}, load on solids "
-            f"{mean_words(time.means['load_on_solids'], 100.0)} %"
-            + (f", friction {mean_words(friction)} of the load" if friction.value else "")
-        )
+        yield f"over the last passage: {', '.join(_means(*_of_passage(time)))}"
     else:
         yield "no means: the run ends before its first passage"
     if time.whole:
-        gap, solids, friction = (time.whole[key] for key in ("mean_gap_nm", "load_on_solids", "friction"))
-        yield (
-            f"over the whole run: mean gap {gap:.4g} nm, load on solids {100.0 * solids:.4g} %"
-            + (f", friction {friction:.4g} of the load" if friction else "")
-        )
-    if time.spikes:
+        yield f"over the whole run: {', '.join(_means(time.whole, time.error.whole if time.error else {}))}"
+    if time.error and (time.means or time.whole):
+        has_bands = time.error.means or time.error.whole
+        yield f"{'bands' if has_bands else 'no band'} of means: {time.error.how}"
+    if time.spikes and not (time.error and "max_pressure_GPa" in time.error.at_the_end):
         yield f"in {time.spikes} of {time.steps} steps the largest pressure is the grid's: {SPIKE}"
     yield from strength_lines(time.largest_shear_MPa)
 
 
-def mean_words(mean, scale=1.0):
-    """A `Mean` times `scale`, with its band where passages are not alike: those say nothing of the grid."""
-    if mean.band and mean.band > ALIKE * abs(mean.value):
-        return with_band(scale * mean.value, scale * mean.band)
-    return f"{scale * mean.value:.4g}"
+def _of_passage(time):
+    """Means over the last passage and the half-widths of their bands: how far grids and steps are apart,
+    and passages."""
+    bands = time.error.means if time.error else {}
+    return {name: mean.value for name, mean in time.means.items()}, {
+        name: both(mean.band, bands.get(name)) for name, mean in time.means.items()
+    }
+
+
+def both(*bands):
+    """The half-width that several make together; None where there is none."""
+    known = [band for band in bands if band is not None]
+    return sum(known) if known else None
+
+
+def _means(values, bands):
+    """Means in words, with the bands that there are."""
+    pressure, friction = "max_pressure_GPa", "friction"
+    yield f"mean gap {_mean(values, bands, 'mean_gap_nm')} nm"
+    yield f"largest pressure {pressure_words(values[pressure], _told(values, bands, pressure))}"
+    yield f"load on solids {_mean(values, bands, 'load_on_solids', 100.0)} %"
+    if values[friction]:
+        yield f"friction {_mean(values, bands, friction)} of the load"
+
+
+def mean_gap_words(time):
+    """The mean gap over the last passage in nm."""
+    return _mean(*_of_passage(time), "mean_gap_nm")
+
+
+def _mean(values, bands, name, scale=1.0):
+    """One mean times `scale`, with its band."""
+    value, band = values[name], _told(values, bands, name)
+    return f"{scale * value:.4g}" if band is None else with_band(scale * value, scale * band)
+
+
+def _told(values, bands, name):
+    """A band that is worth to be told; else None."""
+    band = bands.get(name)
+    return band if band and band > ALIKE * abs(values[name]) else None

@@ -10,6 +10,7 @@ from mgehl.solver.carry import Reference
 from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.march import March
 from mgehl.solver.on_grid import newton_on
+from mgehl.solver.pace import Retraced
 from mgehl.solver.recipe import DRY, recipe_in_time
 from mgehl.solver.restart import begun_in_time
 
@@ -18,12 +19,12 @@ AHEAD = 0.1
 times in the first ones, which else would have to be solved although nothing changes."""
 
 
-def march(scene, task, told, start=None):
+def march(scene, task, told, start=None, pace=None):
     """Run a `Scene` in time on the finest grid; return its `ContactProblem` and its `Outcome`.
 
     The `Task` is that of the scene's contact. From `start`, a `Solution` and the `Frame` here, or from the
     steady state of its beginning. `told` is called after each step, as `March` says, the monitor for each
-    cycle on the way to the beginning.
+    cycle on the way to the beginning. Without a `pace` steps are as long as `Pace` says.
     """
     reference, begins, path = None, None, (0.0, 0.0)
     recipe = recipe_in_time(task.settings, task.contact)
@@ -42,9 +43,15 @@ def march(scene, task, told, start=None):
         if beginning is _steady and not scene.moves:
             reference = Reference.of(steady, state)
     with newton_on(task.hierarchy, problem, recipe) as newton:
-        marching = March(scene, problem, newton, task.settings.time, told)
+        marching = March(scene, problem, newton, task.settings.time, told, pace)
         outcome = marching.run(state, path, reference, task.journal)
     return problem, replace(outcome, begins=begins)
+
+
+def march_beside(scene, task, times, told, start=None):
+    """The same on the next coarser grid, in steps of two of those that end at `times`: its `Outcome`."""
+    coarser = replace(task, hierarchy=task.hierarchy.coarser())
+    return march(scene, coarser, told, start, Retraced(times, scene))[1]
 
 
 def _steady(scene, task):

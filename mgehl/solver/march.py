@@ -85,11 +85,14 @@ class Instant:
 class March:
     """Runs a `Scene` in time, on a problem and a `Newton` that stand at its beginning."""
 
-    def __init__(self, scene, problem, newton, settings, told=lambda instant, standing, problem: ""):
+    def __init__(
+        self, scene, problem, newton, settings, told=lambda instant, standing, problem: "", pace=None
+    ):
         """`newton` solves each step; `settings` are a `TimeSettings`. `told` is called with each
-        `Instant`, the `Standing` after it and the problem; what it returns ends the run, in words."""
+        `Instant`, the `Standing` after it and the problem; what it returns ends the run, in words.
+        Without a `pace` steps are as long as `Pace` says."""
         self._scene, self._problem, self._newton, self._told = scene, problem, newton, told
-        self._settings, self._pace = settings, Pace(scene, problem.grid.mesh, settings.step)
+        self._settings, self._pace = settings, pace or Pace(scene, problem.grid.mesh, settings.step)
         self._transport = Transport(problem)
 
     def run(self, state, path=(0.0, 0.0), reference=None, journal=NOTHING_KEPT):

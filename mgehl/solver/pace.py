@@ -101,3 +101,25 @@ class Pace:
             return step
         cells = self.scene.most_cells(self.scene.way(t, t + step), self.mesh)
         return step * int(cells + JUST) / cells if cells > 1.0 else step
+
+
+class Retraced:
+    """The steps of a march that has ended, two at a time, but for kinks: those of a comparison."""
+
+    def __init__(self, times, scene):
+        """`times` are the ends of its steps in s."""
+        end = times[-1]
+        kinks = [kink for kink in scene.kinks() if kink < end]
+        self._times, self._crumb = sorted({*times[1::2], *kinks, end}), JUST * end
+
+    def first(self):
+        """The first step in s."""
+        return self.next(0.0)
+
+    def next(self, t, *_):
+        """The step at a time `t`."""
+        return next((each - t for each in self._times if each > t + self._crumb), 0.0)
+
+    def fitted(self, _t, step):
+        """That step."""
+        return step

@@ -306,6 +306,13 @@ def test_fields_equal_the_serial_ones(tables):
     assert result.work.steps == expected.work.steps or "time" in tables
 
 
+def test_bands_of_a_run_in_time_equal_the_serial_ones():
+    wide = merged(DENT, {"solver": {"error": True}, "surface": {"width": 12e-5}, "time": {"end": 1e-4}})
+    together, alone = both({"motion": {"speed": 0.09}}, wide)
+    bands = [each.result.time.error.at_the_end for each in (together, alone)]
+    assert bands[0] == pytest.approx(COMM.bcast(bands[1]), rel=1e-3) and bands[0]["mean_gap_nm"] > 0.0
+
+
 class TestBranches:
     """A film followed in speed, and full contact, with their points on disk."""
 

@@ -28,7 +28,7 @@ from mgehl.output.resolution import RESOLVED_CELLS, STARVED_FROM, near_rest, of_
 from mgehl.output.summary import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import ADVICE as SURFACE
 from mgehl.output.surface import RESOLVED_NODES
-from mgehl.output.time_words import mean_words, time_lines
+from mgehl.output.time_words import mean_gap_words, time_lines
 from mgehl.output.words import (
     advice,
     band_words,
@@ -145,7 +145,7 @@ FUNCTIONS = {
     each.__name__: each for each in (
         number, limited, enough, absent, informing, judged, from_each, advice, band_words, gap_band_words,
         mean_gaps, mixed_note, near_rest, of_inlet, span, carried, largest_pressure_words, time_lines,
-        mean_words, heating_words, friction_lines, coefficient_words, pressure_words, pressure_unit,
+        mean_gap_words, heating_words, friction_lines, coefficient_words, pressure_words, pressure_unit,
     )
 }  # fmt: skip
 """What run.html.j2 calls."""

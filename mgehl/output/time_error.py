@@ -1,0 +1,117 @@
+"""The bands about a run in time, its means and the state at its end: by what the next coarser grid differs.
+
+That marches beside in steps of two: its differences have the error of the steps as well as the grid's. They
+fall with the first order, as the steps near contact and cavities do. Of 119 bands about runs on 65 and 129
+nodes 111 held what 257 nodes foretell; a mean gap after a reversal was off by 2.4 times its band.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mgehl.output import film_error, gap_error
+from mgehl.output.gap_error import half_width, share_half_width, unless_wider
+from mgehl.output.result import TimeError
+from mgehl.output.series import MEANS, passed
+from mgehl.solver.pace import JUST
+
+SHARES = "load_on_contact", "load_on_solids"
+"""Columns that are parts of the load."""
+
+
+def time_error(result, problem, scene, asked, progress, beside):
+    """The `TimeError` of the `Result` of a run of a `Scene`, or why it has none (collective).
+
+    `asked` whether bands are. `beside()` marches on the next coarser grid: its rows, and why there are too
+    few, or "".
+    """
+    why_not = gap_error.why_no_band(result, problem)
+    if why_not or not asked:
+        return TimeError(why_not or film_error.NOT_ASKED.how)
+    before, (coarser, why_not) = progress.convolutions, beside()
+    if why_not:
+        return TimeError(why_not)
+    return replace(from_rows(progress.rows, coarser, scene), convolutions=progress.convolutions - before)
+
+
+def from_rows(rows, coarser, scene):
+    """The `TimeError` that the rows of a `Scene` tell, and those of the coarser grid."""
+    gone, pairs = passed(rows, scene), list(_common(rows, coarser))
+    of_passage = [pair for k, *pair in pairs if gone[k] > gone[-1] - 1.0]
+    return TimeError(
+        f"from the differences to {coarser[-1]['grid']} nodes in {len(coarser)} steps for {len(rows)}",
+        means=_half_widths(of_passage) if gone[-1] >= 1.0 else {},
+        whole=_half_widths([pair for _, *pair in pairs]),
+        at_the_end=_half_widths(of_passage, of_last=True),
+    )
+
+
+def _common(rows, coarser):
+    """(Number of a row, the row, that of the coarser grid) of each instant that both have."""
+    times, crumb = np.array([row["time_s"] for row in rows]), JUST * rows[-1]["time_s"]
+    for row in coarser:
+        k = int(np.argmin(np.abs(times - row["time_s"])))
+        if abs(times[k] - row["time_s"]) <= crumb:
+            yield k, rows[k], row
+
+
+def _half_widths(pairs, of_last=False):
+    """{column: half-width} about means of pairs of rows, or about the last of them."""
+    steps = np.array([row["step_s"] for _, row in pairs])
+    weights = steps / steps.sum()
+    found = {}
+    for name in MEANS:
+        fine, coarse = np.array([[row[name] for row in pair] for pair in pairs]).T
+        value, other = (float(each[-1] if of_last else weights @ each) for each in (fine, coarse))
+        # A difference that changes its sign with time is small in an instant, or on average, by chance.
+        apart = float(weights @ np.abs(fine - coarse))
+        found[name] = _half_width(name, value, max(abs(value - other), apart), apart)
+        if name == "max_pressure_GPa" and found[name]:
+            crests = fine * np.array([row["pressure_crest"] for row, _ in pairs])
+            found[name] += float(crests[-1] if of_last else weights @ crests)
+    return {name: half for name, half in found.items() if half is not None}
+
+
+def _half_width(name, value, difference, apart):
+    """That of a column; None where two grids tell it too differently, or both that there is nothing."""
+    if not apart:
+        return None
+    if name in SHARES:
+        return share_half_width(value, value + difference, apart)
+    half = half_width(value, value + difference, apart, touches=True)
+    return unless_wider(half, gap_error.WIDEST * abs(value))
+
+
+def with_bands(result, contact, error):
+    """The `Result` of a run in time with a `TimeError`; the state at its end has bands by it."""
+    films, gaps = _of_films(result, contact, error), _of_gaps(error)
+    mixed = result.mixed and replace(result.mixed, error=gaps)
+    return replace(result, time=replace(result.time, error=error), error=films, mixed=mixed)
+
+
+def _of_films(result, contact, error):
+    """The `FilmError` of the last instant."""
+    central, minimum = (error.at_the_end.get(f"{name}_film_nm") for name in film_error.FILMS)
+    why_not = film_error.why_no_band(result, contact)
+    if why_not or central is None:
+        return film_error.no_band(why_not or _too_far(error))
+    return film_error.FilmError(central, minimum, error.how)
+
+
+def _of_gaps(error):
+    """The `GapError` of the last instant."""
+    end = error.at_the_end
+    if "mean_gap_nm" not in end:
+        return gap_error.no_band(_too_far(error))
+    return gap_error.GapError(
+        end["mean_gap_nm"], None, error.how,
+        max_pressure_GPa=end.get("max_pressure_GPa"),
+        contact_load_share=end.get("load_on_contact"),
+        solid_load_fraction=end.get("load_on_solids"),
+        friction=end.get("friction"),
+    )  # fmt: skip
+
+
+def _too_far(error):
+    """Why a number has no band where others may have one."""
+    return f"{error.how}, which are too large" if error.at_the_end else error.how

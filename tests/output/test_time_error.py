@@ -1,0 +1,137 @@
+"""The bands about a run in time, by the next coarser grid in steps of two."""
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+import mgehl
+from mgehl.errors import Stopped
+from mgehl.kinds import checked_case
+from mgehl.output.series import MEANS
+from mgehl.output.time_error import from_rows
+from mgehl.run import Watch, enter, run
+from mgehl.solver.pace import Retraced
+
+UNIT = 1.52e-3
+BALL = {
+    "contact.load": 15.0, "contact.radius_x": 0.0125, "contact.radius_y": 0.0125,
+    "contact.reduced_modulus": 110e9, "lubricant.viscosity": 0.25, "lubricant.viscosity_law": "roelands",
+    "lubricant.pressure_viscosity": 22e-9, "motion.speed": 0.09, "grid.nodes": 65, "solver.start": "film",
+}  # fmt: skip
+DENT = {
+    "surface.kind": "dent", "surface.amplitude": 1e-7, "surface.width": 1e-4, "surface.body": "body_1",
+    "surface.x": -1e-4, "time.end": 0.3 * UNIT,
+}  # fmt: skip
+
+
+def scene(**more):
+    named = {key.replace("__", "."): value for key, value in more.items()}
+    return checked_case(mgehl.load(None, BALL | {"time.end": 5.0 * UNIT} | named)).scene
+
+
+def test_steps_are_taken_two_at_a_time_but_for_kinks(tmp_path):
+    table = tmp_path / "load.csv"
+    table.write_text("t [ms],F [N]\n0,15\n2.5,30\n5,30\n")
+    pace = Retraced([1e-3, 2e-3, 2.5e-3, 3e-3, 4e-3], scene(contact__load=str(table), time__end=4e-3))
+    t, ends = 0.0, []
+    step = pace.first()
+    while step:
+        t += pace.fitted(t, step)
+        ends.append(1e3 * t)
+        step = pace.next(t, step, 0.0, False)
+    assert ends == pytest.approx([2.0, 2.5, 3.0, 4.0])
+
+
+def row(t, step, value, **more):
+    columns = {name: value for name in MEANS} | {"pressure_crest": 0.0, "load_on_solids": 0.0}
+    way = 1e6 * 0.09 * t
+    return columns | {"grid": 65, "time_s": t, "step_s": step, "path_x_um": way, "path_y_um": 0.0,
+                      "load_share": 1.0, "load_on_contact": 0.0} | more  # fmt: skip
+
+
+def rows(value, coarse=1, steps=8):
+    """Of steps of a fourth of a Hertz radius, or `coarse` times as long; `value(k)` is that of the k-th."""
+    dt = coarse * 0.25 * UNIT
+    return [row((k + 1) * dt, dt, value(k), grid=65 // coarse) for k in range(steps // coarse)]
+
+
+def test_bands_are_the_differences_and_half_of_their_mean_size():
+    """A coarser grid has 2 more all the time, and 4 more in the last of four steps."""
+    fine = rows(lambda k: 100.0)
+    coarse = rows(lambda k: 104.0 if k == 3 else 102.0, coarse=2)
+    found = from_rows(fine, coarse, scene())
+    assert found.at_the_end["mean_gap_nm"] == pytest.approx(4.0 + 0.5 * 2.5)
+    assert found.whole["mean_gap_nm"] == pytest.approx(2.5 + 0.5 * 2.5)
+    assert found.whole["friction"] == found.whole["mean_gap_nm"]
+    assert "load_on_solids" not in found.whole  # there is none on either grid
+    assert "32 nodes in 4 steps for 8" in found.how
+
+
+def test_a_difference_that_changes_its_sign_tells_by_its_size():
+    fine, coarse = rows(lambda k: 100.0), rows(lambda k: (98.0, 102.0, 98.0, 100.0)[k], coarse=2)
+    found = from_rows(fine, coarse, scene())
+    assert found.at_the_end["mean_gap_nm"] == found.whole["mean_gap_nm"] == pytest.approx(1.5 * 1.5)
+
+
+def test_what_grids_tell_too_differently_has_no_band():
+    found = from_rows(rows(lambda k: 100.0), rows(lambda k: 160.0, coarse=2), scene())
+    assert found.at_the_end == {}
+
+
+def test_the_largest_pressure_has_what_it_may_be_larger_between_nodes():
+    fine = [each | {"pressure_crest": 0.05} for each in rows(lambda k: 1.0)]
+    found = from_rows(fine, rows(lambda k: 1.1, coarse=2), scene())
+    assert found.at_the_end["max_pressure_GPa"] == pytest.approx(0.05 + 1.5 * 0.1)
+
+
+@pytest.fixture(scope="module")
+def passing():
+    return mgehl.solve(mgehl.load(None, BALL | DENT))
+
+
+def test_a_finer_grid_in_shorter_steps_ends_within_the_bands(passing):
+    finer = mgehl.solve(mgehl.load(None, BALL | DENT | {"grid.nodes": 129, "solver.error": False}))
+    end, half = passing.rows[-1], passing.summary.time.error.at_the_end
+    assert set(half) >= {"mean_gap_nm", "central_film_nm", "max_pressure_GPa"}
+    for name, width in half.items():
+        assert 0.0 < abs(finer.rows[-1][name] - end[name]) < width < 0.5 * end[name]
+
+
+def test_they_are_told_and_take_a_tenth_of_the_work(passing):
+    result, work = passing.summary, passing.summary.work.convolutions
+    assert 0.01 * work < result.time.error.convolutions < 0.2 * work
+    assert result.mixed.error.mean_nm == result.time.error.at_the_end["mean_gap_nm"]
+    assert "bands of gap, pressure and load: from the differences to 33 nodes" in str(result)
+    assert {each["grid"] for each in passing.rows} == {65}
+
+
+def test_films_of_smooth_bodies_have_them_and_none_that_did_not_ask():
+    short = {"motion.speed": 0.09, "time.end": 0.1 * UNIT}
+    film = mgehl.solve(mgehl.load(None, BALL | short)).summary
+    assert 0.0 < film.error.central_nm < 0.05 * film.central_film_nm
+    film = mgehl.solve(mgehl.load(None, BALL | short | {"solver.error": False})).summary
+    assert film.error.central_nm is None and "not asked for" in film.time.error.how
+
+
+class Told:
+    """Stops a run when it is about to compare grids."""
+
+    row = end = writing = lambda *_, **__: None
+    compares = False
+
+    def news(self, words):
+        self.compares |= "for its bands" in words
+
+    def __call__(self):
+        return Stopped("told to", 143) if self.compares else None
+
+
+def test_a_stop_on_the_way_to_the_bands_loses_nothing(tmp_path, passing):
+    case, comm, told = enter(mgehl.load(None, BALL | DENT), MPI.COMM_SELF), MPI.COMM_SELF, Told()
+    (tmp_path / "run").mkdir()
+    with pytest.raises(Stopped):
+        run(case, tmp_path / "run", comm, Watch(speaker=told, stop=told))
+    run(case, tmp_path / "run", comm, Watch(picture=False))
+    found = mgehl.read(tmp_path / "run")
+    assert np.array_equal(found.fields.H, passing.fields.H)
+    assert found.summary.time.error.at_the_end == passing.summary.time.error.at_the_end
