@@ -166,10 +166,12 @@ def load_config(path=None, settings=()):
 
 
 def not_given(config, tables):
-    """{key: words} of the `physics` of a `Config` that its tables do not give: the paper's are taken."""
+    """{key: words} of the `physics` of a `Config` that its tables do not give: the paper's are taken, but
+    of line contacts, of which the paper has none, a default."""
     known = {each.key for each in config.derived}
     missing = (key for key in config.physics if key not in known and value_of(tables, key) is None)
-    return {key: f"{key}: {config.said(key)} is the paper's" for key in missing}
+    whose = {key: "the default" if key == "contact.load_per_length" else "the paper's" for key in missing}
+    return {key: f"{key}: {config.said(key)} is {words}" for key, words in whose.items()}
 
 
 def read_tables(path=None, settings=()):

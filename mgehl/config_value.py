@@ -29,19 +29,21 @@ _NO_MATCH = re.match("(?P<number>)(?P<per>)(?P<units>)", "")
 """A quantity such as "7.5 mm/s" or "18.2 1/GPa", and one without a number, which no float reads."""
 
 _PRINTED = (
+    (re.compile("\u03bc"), lambda _: "\u00b5"),  # the Greek letter, and the sign that looks like it
     (re.compile(r"[·⋅∙]"), lambda _: "*"),
+    (re.compile(r"(?<=[A-Za-z])(?<![\d.][eE])-(?=\d\b)"), lambda _: "^-"),
     (re.compile(r"(⁻?)([¹²³])"), lambda m: f"^{'-' if m[1] else ''}{'¹²³'.index(m[2]) + 1}"),
     (re.compile(r"/\s*\(([^()/]*)\)"), lambda m: "/" + "/".join(re.split(r"[ *]+", m[1].strip()))),
     (re.compile(r"\b(m?)Pas\b"), lambda m: f"{m[1]}Pa*s"),
     (re.compile(r"\b([WJ]) */ *(m|kg)[ *]*K\b"), lambda m: f"{m[1]}/{m[2]}/K"),
 )
-"""How data sheets print units that pint reads in another form: mPa·s, mm²/s, W/(m K), mPas, W/mK."""
+"""How data sheets print units that pint reads in another form: mPa·s, mm²/s, mm s-1, W/(m K), mPas."""
 
 EXAMPLES = {"K": "60 degC", "rad/s": "6000 rpm"}
 """Values of units that people seldom say in SI."""
 
-ANGLES = ("revolution", "turn", "radian", "degree")
-"""Units of which a rotation must have one: pint takes 100 Hz for 100 rad/s."""
+ANGLES = ("revolution", "turn", "radian", "degree", "grade")
+"""Units of which an angle or a rotation must have one: pint takes 100 Hz for 100 rad/s, and 5 for 5 rad."""
 
 LEFT_OUT = ("pandas", "xarray", "dask", "pint_pandas")
 """What pint would import for the sake of its arrays, in two thirds of the time that pint takes."""
@@ -99,6 +101,8 @@ def shown(value):
 def read_value(key, rules, value):
     """The value that `value`, as read from TOML, stands for. Raises ConfigError."""
     kind, choices = rules["kind"], rules["choices"] or ()
+    if isinstance(value, str) and (sign := value.replace("\u03bc", "\u00b5")) in choices:
+        value = sign
     if kind is str and isinstance(value, str) and value in choices:
         return value
     if rules["own"] and (own := rules["own"](value)):
@@ -151,8 +155,9 @@ def _with_unit(key, unit, text, instead=""):
             units = {"C": "degC", "F": "degF"}.get(units, units)
             return float(_units().Quantity(float(number), units).to(unit).magnitude)
         quantity = float(number) * _units()(f"{'1/' if per else ''}{units or 'dimensionless'}")
-        if unit == "rad/s" and not any(word in str(quantity.units) for word in ANGLES):
-            raise ConfigError(f"{key} = {shown(text)}: of what, turns or radians? must be {example}")
+        if unit in ("rad/s", "deg") and not any(word in str(quantity.units) for word in ANGLES):
+            what = "of what, turns or radians?" if units else "has no unit;"
+            raise ConfigError(f"{key} = {shown(text)}: {what} must be {example}")
         return float(quantity.to(unit or "dimensionless").magnitude)
     except ConfigError:
         raise

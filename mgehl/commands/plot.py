@@ -12,6 +12,7 @@ from pathlib import Path
 
 from mgehl.commands import several, whole_number
 from mgehl.errors import OutputError, UserError
+from mgehl.output.files import PLOTS
 
 KINDS = (
     "all", "time", "lines", "film", "pressure", "status", "gap", "surface", "history", "shear", "flash_1",
@@ -68,7 +69,7 @@ def _movies(options):
     from mgehl.output.whole_file import writing
 
     for run in options.runs:
-        folder = Path(options.out or Path(run) / "plots")
+        folder = Path(options.out or Path(run) / PLOTS)
         with writing(folder):
             print(write_movie(read_run(run), folder))
 
@@ -88,7 +89,7 @@ def _curves(options):
 def _drawn(options, kinds):
     """Lists of pictures, each with its directory."""
     if options.against:
-        return [([_curves(options)], Path(options.out or "plots"))]
+        return [([_curves(options)], Path(options.out or PLOTS))]
     from mgehl.output.pictures.figures import compared, figures
     from mgehl.output.pictures.titles import run_names
     from mgehl.output.stored import read_run
@@ -98,8 +99,8 @@ def _drawn(options, kinds):
     own = None if "all" in kinds else [kind for kind in kinds if kind != "compare"]
     if own is None or own:
         for run, name, solution in zip(options.runs, names, solutions, strict=True):
-            out = Path(options.out or Path(run) / "plots")
+            out = Path(options.out or Path(run) / PLOTS)
             drawn.append((figures(solution, own), out / name if several and options.out else out))
     if several and (own is None or "compare" in kinds):
-        drawn.append((compared(solutions, names), Path(options.out or "plots")))
+        drawn.append((compared(solutions, names), Path(options.out or PLOTS)))
     return drawn

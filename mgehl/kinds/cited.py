@@ -22,7 +22,7 @@ def cited(config, contact):
             found.append(OILS[section.oil].source)
         if section.kinematic_viscosity_40 is not None:
             found.append("astmd341")
-        if section.heating == "factor":
+        if section.heating == "factor" or contact.is_loaded and contact.thermal_reduction is not None:
             found.append("gupta1992")
         laws = "viscosity_law", "density_law"
         laws = [name for name in laws if f"lubricant.{name}" not in config.unused]

@@ -78,6 +78,8 @@ def oil_words(config):
             f"measured from {oil.coldest - CELSIUS:g} to {oil.warmest - CELSIUS:g} C and up to "
             f"{1e-9 * oil.highest:g} GPa; not known: {oil.unknown}"
         )
+        cold, warm = (f"{100.0 * off:+.0f} %" for off in oil.off)
+        yield f"beside its kinematic viscosities the formula is off by {cold} at 40 C, {warm} at 100 C"
 
 
 def thinning_of(config):

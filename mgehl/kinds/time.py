@@ -33,6 +33,9 @@ class TimeSection:
     # fmt: on
 
 
+SINGLE = "shN°"
+"""Headings of one letter that are units: c is no speed of light, and t no tonne."""
+
 MOST_TURNED = 36000.0
 """Degrees, a hundred turns, to which a direction may go."""
 
@@ -94,6 +97,8 @@ def _in_si(name, heading, unit):
     words = unit_words(heading)
     is_name = heading in words and "/" not in heading
     for found in words:
+        if found == heading and len(found) == 1 and found not in SINGLE:
+            continue
         try:
             return read_quantity(name, f"1 {found}", unit)
         except WrongUnitError:

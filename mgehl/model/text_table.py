@@ -92,10 +92,14 @@ def read_table(path):
 
 
 def unit_words(heading):
-    """What in a column's heading may be its unit, the likeliest first: `t [ms]`, `t / ms`, `t ms`, `ms`."""
-    if found := re.search(r"[\[(]\s*([^\])]*?)\s*[\])]\s*$", heading):
+    """What in a column's heading may be its unit, the likeliest first: `t [ms]`, `t / ms`, `t ms`, `t_ms`,
+    `v_mm_s` (mm/s), `ms`."""
+    if found := re.search(r"[\[({<]\s*([^\])}>]*?)\s*[\])}>]\s*$", heading):
         return [found[1]]
-    return [heading, *heading.split()[-1:], *map(str.strip, heading.split("/", 1)[1:])]
+    words, parts = heading.split(), re.split(r"[_.:-]", heading)
+    tails = ("/".join(parts[k:]) for k in range(1, len(parts)))
+    tails = heading.split("/", 1)[1:], words[-1:], [" ".join(words[1:])], tails
+    return [heading, *(tail.strip() for each in tails for tail in each if tail.strip())]
 
 
 def value_of(word):

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from mgehl.errors import OutputError
 from mgehl.output.checkpoint import BEGUN, read_begun
-from mgehl.output.files import CHECKPOINT, FIELDS, NAMES, REPORT, SERIES, STUDY
+from mgehl.output.files import CHECKPOINT, FIELDS, NAMES, PLOTS, REPORT, SERIES, STUDY
 from mgehl.output.laws import FOLDER as LAWS
 from mgehl.output.stored import files_of
 from mgehl.output.whole_file import clear_parts, is_folder, is_plain, remove_plain, writing
@@ -85,6 +85,15 @@ def clear_checkpoint(directory):
     for each in (stage / LAWS, stage, folder / LAWS, folder):
         with suppress(OSError):  # not there, or somebody else's, too
             each.rmdir()
+
+
+def made_before(directory):
+    """Names of files that may have been made of the run in a directory, by export and plot."""
+    directory = Path(directory)
+    if not (directory / FIELDS).exists():
+        return []
+    exported = (path.name for path in directory.glob(f"{Path(FIELDS).stem}*") if path.name != FIELDS)
+    return sorted(exported) + [PLOTS] * (directory / PLOTS).exists()
 
 
 def publish(directory, stage, names):

@@ -34,6 +34,9 @@ STUDY = "study.json"
 REPORT = "report.html"
 """The page that `mgehl report` makes of a directory where no other file is named."""
 
+PLOTS = "plots"
+"""Folder of pictures that `mgehl plot` draws of a run where no other place is named."""
+
 INPUTS = "inputs"
 """In result.json {"section.key": number in SI units} of what was given, or follows from it."""
 

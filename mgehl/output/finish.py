@@ -4,7 +4,7 @@ from pathlib import Path
 
 from mgehl.errors import one_line
 from mgehl.output.checkpoint import read_begun
-from mgehl.output.directory import FINISHED, clear_checkpoint, publish
+from mgehl.output.directory import FINISHED, clear_checkpoint, made_before, publish
 from mgehl.output.files import (
     CHECKPOINT,
     FIELDS,
@@ -49,7 +49,10 @@ def _finish(directory, solution, picture):
                 names.append(FRAMES)
         if picture and _is_drawn(stage / PICTURE, solution, directory):
             names.append(PICTURE)
+        made = made_before(directory)
         publish(directory, stage, names)
+    if made:
+        complain(f"{directory}: of the run that was there before are still {', '.join(made)}")
     clear_checkpoint(directory)
 
 

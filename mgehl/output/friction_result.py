@@ -179,7 +179,7 @@ def friction_lines(friction, verbose):
     more = f" (and {beyond:.2g} beyond the domain, were it flooded)" if beyond else ""
     rolling = f"rolling takes {friction.rolling_coefficient:.3g} of the load on each body{more}"
     if not friction.slide_to_roll:
-        yield f"friction 0: the surfaces do not slide; {rolling}"
+        yield f"no sliding friction: motion.slide_to_roll is 0, or not given; {rolling}"
         return
     sheared, more = friction.sliding_beyond, ""
     if sheared > TOLD * friction.coefficient:

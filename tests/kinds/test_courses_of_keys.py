@@ -17,7 +17,9 @@ def read(tmp_path, heading, key="motion.speed", rows=ROWS):
     "heading, end, value",
     [("t;v", 1000.0, 300.0), ("s;m/s", 1000.0, 300.0), ("t [ms];v [mm/s]", 1.0, 0.3),
      ("t / ms;v / mm/s", 1.0, 0.3), ("t/ms;v/(mm/s)", 1.0, 0.3), ("ms;mm/s", 1.0, 0.3),
-     ("time ms;speed km/h", 1.0, 300.0 / 3.6), ("# t (ms); speed", 1.0, 300.0)],
+     ("time ms;speed km/h", 1.0, 300.0 / 3.6), ("# t (ms); speed", 1.0, 300.0),
+     ("time_s;speed_mm_s", 1000.0, 0.3), ("t.ms;v mm s-1", 1.0, 0.3), ("t-ms;v {mm/s}", 1.0, 0.3),
+     ("t;c", 1000.0, 300.0), ("t;speed_mean", 1000.0, 300.0)],
 )  # fmt: skip
 def test_a_heading_tells_units(tmp_path, heading, end, value):
     found = read(tmp_path, heading)
@@ -35,8 +37,14 @@ def test_each_key_has_its_unit(tmp_path):
     assert read(tmp_path, "t;angle [rad]", "motion.angle").value(0.0) == pytest.approx(18000.0 / np.pi)
 
 
+@pytest.mark.parametrize("heading", ["t;alpha", "t;pi", "t;count", "t;angle"])
+def test_a_name_of_an_angle_is_no_unit(tmp_path, heading):
+    """Alpha was the fine-structure constant: 90 degrees were 37.6."""
+    assert read(tmp_path, heading, "motion.angle").value(0.0) == 100.0
+
+
 @pytest.mark.parametrize(
-    "heading", ["t;v [furlong]", "t;v [N]", "t;speed rpm", "t [mm];v", "t;v / x", "t;kN"]
+    "heading", ["t;v_kN", "t;v [furlong]", "t;v [N]", "t;speed rpm", "t [mm];v", "t;v / x", "t;kN"]
 )
 def test_a_unit_that_is_none_of_the_column_is_refused(tmp_path, heading):
     with pytest.raises(ConfigError, match="its heading '.*' tells no unit of its column; must be such as"):

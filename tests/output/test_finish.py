@@ -26,6 +26,15 @@ def test_a_picture_that_cannot_be_drawn_costs_nothing(tmp_path, capsys, monkeypa
     assert (here / "fields.h5").stat().st_mtime_ns == before
 
 
+def test_what_was_made_of_the_run_before_is_named(capsys):
+    """fields.nc of another speed lay beside the new result without a word."""
+    assert main(DRY) == 0
+    assert main(["export", "here", "--to", "nc"]) == 0
+    assert "before" not in capsys.readouterr().err
+    assert main([*DRY, "--force"]) == 0
+    assert "here: of the run that was there before are still fields.nc" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("begun", [False, True])
 def test_a_kill_at_the_very_beginning_is_in_nobodys_way(monkeypatch, begun):
     """What it left is mgehl's: --force replaces it."""

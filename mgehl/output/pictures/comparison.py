@@ -59,7 +59,9 @@ def compare_histories(solutions, labels):
         begins = [k for k, _ in grids(solution.rows)]
         ring = {"marker": "o", "markerfacecolor": "white", "markevery": begins}
         for panel, name in zip(axes[:, 0], errors, strict=True):
-            panel.plot(position, np.abs(column(solution.rows, name)), label=label, **ring, **style)
+            sizes = np.abs(column(solution.rows, name))
+            if np.any(sizes > 0.0):  # the load of a dry contact is met exactly
+                panel.plot(position, sizes, label=label, **ring, **style)
             panel.set(yscale="log", ylabel=errors[name])
     axes[-1, 0].set_xlabel(" or ".join(units))
     axes[-1, 0].xaxis.set_major_locator(MaxNLocator(integer=True))
