@@ -212,18 +212,24 @@ class _LoadedSolve:
         problem, outcome = march(case.scene, task, diary, start and (start, parts.frame))
         making = self._making(len(monitor.rows))
         result = summarise_in_time(problem, outcome, monitor.rows, case.scene, self._tolerance, making)
-        friction, maps = None, None
-        if monitor.rows:
-            t = monitor.rows[-1]["time_s"]
-            now = problem.moving(case.scene.speed.value(t))
-            friction, maps = self._friction(now, outcome, case.scene.angle.value(t), steady=False)
-            error = self._time_error(result, problem, task)
-            result = with_bands(result, problem.contact, error)
-            friction = with_band(friction, error.at_the_end.get("friction"))
+        result, maps = self._with_friction_and_bands(result, problem, outcome, task)
         formulas_of = of_formulas(case.config).removeprefix(", ")
-        result = replace(result, friction=friction, recipe=self._recipe(outcome), formulas_of=formulas_of)
-        result = replace(result, wall_s=monitor.seconds)
+        recipe = self._recipe(outcome)
+        result = replace(result, recipe=recipe, formulas_of=formulas_of, wall_s=monitor.seconds)
         return replace(self._solution(problem, outcome, result, maps), frames=diary.frames)
+
+    def _with_friction_and_bands(self, result, problem, outcome, task):
+        """The `Result` of a run in time with the friction of its end and bands, and maps of friction; of a
+        run that found no beginning as it is."""
+        rows, scene = self.monitor.rows, self.case.scene
+        if not rows:
+            return result, None
+        t = rows[-1]["time_s"]
+        now = problem.moving(scene.speed.value(t))
+        friction, maps = self._friction(now, outcome, scene.angle.value(t), steady=False)
+        error = self._time_error(result, problem, task)
+        friction = with_band(friction, error.at_the_end.get("friction"))
+        return with_bands(replace(result, friction=friction), problem.contact, error), maps
 
     def _time_error(self, result, problem, task):
         """The `TimeError` of a run in time by its `Task`."""
