@@ -49,9 +49,9 @@ SLENDER = 8.0
 """R_x/R_y from which on no formula is made for the contact. Solved films are 1.3, 1.4 and 1.5 times
 Nijenbanning's at 10, 20 and 34, and half and less of Hamrock and Dowson's."""
 
-LEAST_CELLS = 0.25
-"""Part of a cell below which shorter steps do harm: a film under a load and a speed that swing is 7 % off
-on 65 nodes with a sixth of a cell in a step, 2 % with two thirds."""
+SMEARED = 0.25
+"""Part of a cell below which shorter steps may do harm: a film under a load and a speed that swing is 7 %
+off on 65 nodes with a sixth of a cell in a step, 2 % with two thirds."""
 
 APART = 1000.0
 """Ratio of two formulas of which one cannot be meant."""
@@ -126,15 +126,16 @@ def _odd_steps(config, contact):
     way = fastest * config.time.step * np.array(contact.motion)
     scene = scene_of(config, contact)
     cells, most = scene.fastest(way, mesh), scene.most_asked
-    if cells > most:
+    mean, in_inlet = scene.most_cells(way, mesh), min(scene.most_in_inlet(t, mesh) for t in scene.extremes)
+    if cells > most or mean > in_inlet:
         yield (
             f"time.step = {config.time.step:.4g} s: surfaces would go up to {cells:.3g} cells in a step; "
-            f"steps are cut to {most:g}"
+            f"steps are cut to {most:g}, and to {in_inlet:.2g} of the mean surface, for the inlet is short"
         )
-    if 0.0 < cells < LEAST_CELLS:
+    if 0.0 < cells < SMEARED:
         yield (
             f"time.step = {config.time.step:.4g} s: surfaces go {cells:.2g} of a cell in a step at most; "
-            f"below {LEAST_CELLS:g} contents are carried along less well, not better"
+            f"below {SMEARED:g} what is carried along is smeared: the bands tell how much"
         )
 
 

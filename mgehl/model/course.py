@@ -12,6 +12,12 @@ from mgehl.model.text_table import FileError, read_table
 SAMPLES = 1001
 """Times at which a function of the user's own is asked for its largest value."""
 
+GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
+"""Multiples of it, without their whole parts, lie evenly and have no period."""
+
+LOOKS_IN = 3
+"""Times within a step at which a function of the user's own is asked whether it goes straight on."""
+
 ROUNDED = 1e-6
 """Part of a run by which a table may end before it: its times have so many digits."""
 
@@ -181,10 +187,19 @@ class Own(Course):
         return {}
 
     def _until(self, end):
+        """Even times, and uneven ones: a wave may have a whole number of periods between even ones."""
         if end not in self._asked:
-            times = np.linspace(0.0, end, SAMPLES)
+            uneven = np.modf(GOLDEN * np.arange(1, SAMPLES))[0]
+            times = np.sort(np.append(np.linspace(0.0, 1.0, SAMPLES), uneven)) * end
             self._asked[end] = times, np.array([self.value(t) for t in times])
         return self._asked[end]
+
+    def range(self, end):
+        _, values = self._until(end)
+        return float(values.min()), float(values.max())
+
+    def times(self, end):
+        return tuple(map(float, self._until(end)[0]))
 
     def check(self, end):
         """Raise OwnFunctionError unless it gives numbers from 0 to `end`."""
@@ -193,11 +208,12 @@ class Own(Course):
 
     def bend(self, begin, end, until):
         times, values = self._until(until)
-        inside, spread = (times > begin) & (times < end), np.ptp(values)
-        if not spread or not inside.any():
-            return 0.0
-        line = np.interp(times[inside], [begin, end], [self.value(begin), self.value(end)])
-        return float(np.abs(values[inside] - line).max() / spread)
+        within, spread = (times > begin) & (times < end), np.ptp(values)
+        few = np.linspace(begin, end, LOOKS_IN + 2)
+        there = np.array([self.value(t) for t in few])
+        points, found = np.append(few, times[within]), np.append(there, values[within])
+        off = np.abs(found - np.interp(points, [begin, end], there[[0, -1]])).max()
+        return float(off / max(spread, np.ptp(found))) if off else 0.0
 
     def value(self, t):
         value = float(self.function.array((), t))

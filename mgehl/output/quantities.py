@@ -10,7 +10,7 @@ from mgehl.kinds.bodies import roughness_of
 from mgehl.kinds.choice import value_of
 from mgehl.output.files import INPUTS
 from mgehl.output.stored import read_texts
-from mgehl.output.time_words import both
+from mgehl.output.time_words import of_a_mean
 
 
 class Quantity(NamedTuple):
@@ -92,7 +92,7 @@ def with_means(result):
     for name, mean in means.items():
         found = QUANTITIES[name]
         _put_at(result, found.path, mean["value"])
-        _put_at(result, found.band, both(mean["band"], bands.get(name)))
+        _put_at(result, found.band, of_a_mean(mean["band"], bands.get(name)))
         if name in ALSO_AT:
             _put_at(result, ALSO_AT[name], mean["value"])
     return result

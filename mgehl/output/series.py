@@ -54,6 +54,9 @@ PATH = "path_um", "path_x_um", "path_y_um"
 SETTLED = 0.01
 """Part of a mean that its band may be; of a load share that part of the load."""
 
+SLOWEST = 0.95
+"""Part of a change that the next passage has again, at the most that is thought of."""
+
 FEWEST = 3
 """Passages before means are asked whether they have settled: the first one begins."""
 
@@ -176,13 +179,31 @@ def over_all(rows, scene):
 
 
 def have_settled(rows, scene):
-    """Whether the means of gap and load on solids have settled after `FEWEST` passages."""
+    """Whether the means of gap and load on solids have settled after `FEWEST` passages: what they still
+    change by, if they go on as in the last three, is little."""
     gone = passed(rows, scene)
     if gone[-1] < FEWEST:
         return False
-    found = means(rows, gone)
-    gap, solids = found["mean_gap_nm"], found["load_on_solids"]
-    return gap.band <= SETTLED * gap.value and solids.band <= SETTLED
+    gap, solids = (_of_three(rows, gone, name) for name in ("mean_gap_nm", "load_on_solids"))
+    return _left(*gap) <= SETTLED * gap[-1] and _left(*solids) <= SETTLED
+
+
+def _of_three(rows, gone, name):
+    """Means of a column over the last three passages, the last one the last; nan of one without a step."""
+    weights, values = (np.array([row[each] for row in rows]) for each in ("step_s", name))
+    passage = np.ceil(gone[-1] - gone).astype(int).clip(min=1)
+    return [
+        np.average(values[passage == k], weights=weights[passage == k]) if np.any(passage == k) else np.nan
+        for k in (3, 2, 1)
+    ]
+
+
+def _left(first, second, third):
+    """What three values that follow each other still change by: as a geometric series where they go one
+    way. A light ball approaches its film so slowly that ten passages' changes were left."""
+    before, last = second - first, third - second
+    ratio = last / before if before else 0.0
+    return abs(last) / (1.0 - min(max(ratio, 0.0), SLOWEST))
 
 
 def time_result(rows, scene, work, largest_node):

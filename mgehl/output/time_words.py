@@ -36,14 +36,14 @@ def _of_passage(time):
     and passages."""
     bands = time.error.means if time.error else {}
     return {name: mean.value for name, mean in time.means.items()}, {
-        name: both(mean.band, bands.get(name)) for name, mean in time.means.items()
+        name: of_a_mean(mean.band, bands.get(name)) for name, mean in time.means.items()
     }
 
 
-def both(*bands):
-    """The half-width that several make together; None where there is none."""
-    known = [band for band in bands if band is not None]
-    return sum(known) if known else None
+def of_a_mean(passages, grids):
+    """The half-width about a mean of which passages and grids differ by so much: that passages are alike
+    says nothing of the grid. None where grids tell none."""
+    return None if grids is None else grids + (passages or 0.0)
 
 
 def _means(values, bands):

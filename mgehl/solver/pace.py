@@ -5,13 +5,10 @@ from itertools import pairwise
 from math import ceil, inf, sqrt
 
 from mgehl.model.course import ROUNDED
+from mgehl.model.scene import LEAST_CELLS
 
 MOST_CELLS, MOST_CELLS_ROUGH = 4.0, 1.0
 """Cells that the surfaces go in a step at the most: smooth ones, and those whose heights move."""
-
-LEAST_CELLS = 0.5
-"""Cells below which no step is taken for its error alone: waves that are carried along have no smaller
-one."""
 
 FIRST_STEPS = 200
 """Steps that a run is expected to take where nothing moves."""
@@ -39,7 +36,9 @@ def expected_steps(scene, mesh, fixed=None):
     cells = sum(scene.fastest(scene.way(*ends), mesh) for ends in pairwise(times))
     if fixed:
         return max(ceil(scene.end / fixed), ceil(cells / scene.most_asked))
-    return max(int(cells / (MOST_CELLS_ROUGH if scene.moves else 1.0)), FIRST_STEPS // 4)
+    mean = sum(scene.most_cells(scene.way(*ends), mesh) for ends in pairwise(times))
+    in_inlet = mean / min(scene.most_in_inlet(t, mesh) for t in scene.extremes)
+    return max(int(max(cells / (MOST_CELLS_ROUGH if scene.moves else 1.0), in_inlet)), FIRST_STEPS // 4)
 
 
 @dataclass
@@ -68,7 +67,7 @@ class Pace:
             return GROWTH * before
         wanted = sqrt(AIM / error) if error > 0.0 else inf
         found = before * min(1.0 if halved else GROWTH, max(LEAST_GROWTH, wanted))
-        cells = self.scene.most_cells(self.scene.velocity(t) * found, self.mesh)
+        cells = self._mean(self.scene.velocity(t) * found)
         if halved or not 0.0 < cells < LEAST_CELLS:
             return found
         return min(found * LEAST_CELLS / cells, GROWTH * before)
@@ -93,14 +92,20 @@ class Pace:
         """A step in which the surfaces go no more cells than they may, a whole number where they go more
         than one."""
         for _ in range(3):
-            cells = self.scene.fastest(self.scene.way(t, t + step), self.mesh)
-            if cells <= self._most_cells * (1.0 + JUST):
+            way = self.scene.way(t, t + step)
+            share = self.scene.fastest(way, self.mesh) / self._most_cells
+            share = max(share, self._mean(way) / self.scene.most_in_inlet(t + step, self.mesh))
+            if share <= 1.0 + JUST:
                 break
-            step *= self._most_cells / cells
+            step /= share
         if self.fixed:
             return step
-        cells = self.scene.most_cells(self.scene.way(t, t + step), self.mesh)
+        cells = self._mean(self.scene.way(t, t + step))
         return step * int(cells + JUST) / cells if cells > 1.0 else step
+
+    def _mean(self, way):
+        """Cells that the mean surface goes by a way."""
+        return self.scene.most_cells(way, self.mesh)
 
 
 class Retraced:

@@ -2,6 +2,7 @@
 
 from copy import copy
 from dataclasses import dataclass, replace
+from math import nan
 
 import numpy as np
 
@@ -228,8 +229,9 @@ class ContactProblem(Problem):
         return P * (self._load_within / self.load(P))
 
     def mean(self, array, nodes):
-        """Mean of an array (lines, nx) over some nodes of all ranks."""
-        return self.grid.sum(array[nodes].sum()) / self.grid.count(nodes)
+        """Mean of an array (lines, nx) over some nodes of all ranks; nan where there are none."""
+        count = self.grid.count(nodes)
+        return self.grid.sum(array[nodes].sum()) / count if count else nan
 
     def films(self, state):
         """Gap at the centre, if need be between nodes, and the smallest gap of a node, in units of H."""
