@@ -534,3 +534,13 @@ def test_a_file_must_reach_as_far_as_it_goes(tmp_path):
 def test_an_end_before_the_means_have_settled_is_told():
     moving = ROUGH | {"surface.rms": 1e-9, "time.until": "settled"}
     assert "means over passages have not" in solved(moving, time__end=0.1 * UNIT).summary.reason
+
+
+def test_friction_beyond_the_domain_is_that_of_the_steady_state():
+    """In time it was 0, and nothing was said: a third of the rolling of a light ball."""
+    slides = {"motion__slide_to_roll": 0.1}
+    steady, after = (
+        each.summary.friction for each in (solved(**slides), solved(**slides, time__end=0.1 * UNIT))
+    )
+    assert after.rolling_beyond == pytest.approx(steady.rolling_beyond) != 0.0
+    assert after.sliding_beyond == pytest.approx(steady.sliding_beyond) != 0.0

@@ -63,8 +63,8 @@ that move: waves of 80 um on 65 nodes have a mean gap of 155 nm by one cell, 151
 
 OF_INLET, LEAST_CELLS = 0.4, 0.5
 """Part of the inlet's cells that the mean surface may go in a step, and cells that it always may. A step of
-c cells makes a film from an inlet of n cells thinner by a fourth of (c/n)^2 (balls, 65 and 129 nodes, c/n of
-0.2 to 0.6); by 1.8 it was two thirds thicker."""
+c cells makes a film from an inlet of n cells thinner by a fourth of (c/n)^2 (balls on 65 and 129 nodes, c/n
+of 0.2 to 0.6); by 1.8 it was two thirds thicker."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,8 @@ class Scene:
 
     def most_in_inlet(self, t, mesh):
         """Cells of a mesh that the mean surface may go in a step at a time, for its film to be right."""
-        return max(OF_INLET * self.instant(self.framed, t).inlet_cells(mesh), LEAST_CELLS)
+        there = self.instant(self.framed, t)
+        return LEAST_CELLS if there.is_at_rest else max(OF_INLET * there.inlet_cells(mesh), LEAST_CELLS)
 
     def _varies(self, surface):
         """Whether heights vary along some direction of the motion."""

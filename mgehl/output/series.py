@@ -57,6 +57,9 @@ SETTLED = 0.01
 SLOWEST = 0.95
 """Part of a change that the next passage has again, at the most that is thought of."""
 
+ROUNDING = 1e-9
+"""Part of a passage by which ways may be off."""
+
 FEWEST = 3
 """Passages before means are asked whether they have settled: the first one begins."""
 
@@ -157,8 +160,7 @@ def means(rows, gone):
     if gone[-1] < 1.0:
         return {}
     weights = np.array([row["step_s"] for row in rows])
-    last, before = (gone > gone[-1] - 1.0), (gone <= gone[-1] - 1.0)
-    before &= gone > gone[-1] - 2.0
+    last, before = (_passages_ago(gone) == k for k in (0, 1))
     found = {}
     for name in MEANS:
         values = np.array([row[name] for row in rows])
@@ -167,6 +169,11 @@ def means(rows, gone):
         earlier = float(np.average(values[before], weights=weights[before])) if two else None
         found[name] = Mean(mean, None if earlier is None else abs(mean - earlier))
     return found
+
+
+def _passages_ago(gone):
+    """0 of rows in the last passage, 1 of those in the one before, ..., (rows,)."""
+    return np.floor(gone[-1] - gone + ROUNDING)
 
 
 def over_all(rows, scene):
@@ -191,11 +198,8 @@ def have_settled(rows, scene):
 def _of_three(rows, gone, name):
     """Means of a column over the last three passages, the last one the last; nan of one without a step."""
     weights, values = (np.array([row[each] for row in rows]) for each in ("step_s", name))
-    passage = np.ceil(gone[-1] - gone).astype(int).clip(min=1)
-    return [
-        np.average(values[passage == k], weights=weights[passage == k]) if np.any(passage == k) else np.nan
-        for k in (3, 2, 1)
-    ]
+    passages = (_passages_ago(gone) == k for k in (2, 1, 0))
+    return [np.average(values[one], weights=weights[one]) if one.any() else np.nan for one in passages]
 
 
 def _left(first, second, third):

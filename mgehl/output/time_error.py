@@ -12,7 +12,7 @@ import numpy as np
 from mgehl.output import film_error, gap_error
 from mgehl.output.gap_error import half_width, share_half_width, unless_wider
 from mgehl.output.result import TimeError
-from mgehl.output.series import MEANS, passed
+from mgehl.output.series import MEANS, ROUNDING, passed
 from mgehl.solver.pace import JUST
 
 SHARES = "load_on_contact", "load_on_solids"
@@ -37,7 +37,7 @@ def time_error(result, problem, scene, asked, progress, beside):
 def from_rows(rows, coarser, scene):
     """The `TimeError` that the rows of a `Scene` tell, and those of the coarser grid."""
     gone, pairs = passed(rows, scene), list(_common(rows, coarser))
-    of_passage = [pair for k, *pair in pairs if gone[k] > gone[-1] - 1.0]
+    of_passage = [pair for k, *pair in pairs if gone[k] > gone[-1] - 1.0 + ROUNDING]
     return TimeError(
         f"from the differences to {coarser[-1]['grid']} nodes in {len(coarser)} steps for {len(rows)}",
         means=_half_widths(of_passage) if gone[-1] >= 1.0 else {},

@@ -63,3 +63,17 @@ def test_a_function_of_ones_own(tmp_path):
     assert course.integral(1.0, 2.0) == pytest.approx(7.0)
     # Of values from 0 to 27 a straight line from 1 s to 2 s is at most 3/4 above the curve.
     assert course.bend(1.0, 2.0, 3.0) == pytest.approx(0.75 / 27.0, rel=1e-3)
+
+
+def test_a_wave_with_a_period_of_even_times_is_seen(tmp_path):
+    """A thousand periods in a run were constant: "load 20 to 20 N"."""
+    (tmp_path / "mine.py").write_text(
+        "from math import pi, sin\ndef load(t): return 20 + 15 * sin(2e3 * pi * t)\n"
+    )
+    assert Own(OwnFunction(f"{tmp_path}/mine.py:load")).range(1.0) == pytest.approx((5.0, 35.0), abs=0.1)
+
+
+def test_a_peak_between_the_samples_is_met_in_a_step(tmp_path):
+    peak = "def load(t): return 20 + 40 * max(0, 1 - abs(t - 0.25049) / 2e-4)\n"
+    (tmp_path / "mine.py").write_text(peak)
+    assert Own(OwnFunction(f"{tmp_path}/mine.py:load")).bend(0.2502, 0.2508, 1.0) > 0.5

@@ -113,13 +113,17 @@ def test_heat_thins_the_oil_by_the_speed_and_the_load_of_the_instant(tmp_path):
     assert thinned[0] == found.contact.lubricant.thinned < thinned[1] < 1.0
 
 
-@pytest.mark.parametrize("cells, taken", [(0.5, 0.5), (30.0, 4.0)])
-def test_a_step_that_is_asked_for_is_cut_to_the_cells_that_a_film_bears(cells, taken):
-    """A steady film of 127 nm walked off to 210 by steps of 8 cells, and was called converged."""
-    found, mesh = scene({}), Mesh(65, 65, (-2.0, 2.0), (-2.0, 2.0))
+@pytest.mark.parametrize(
+    "viscosity, cells, taken",
+    [(60.0, 0.5, 0.5), (60.0, 30.0, 4.0), (5.0, 30.0, 0.4 * 3.482), (5.0, 1.0, 1.0), (0.1, 30.0, 0.5)],
+)  # fmt: skip
+def test_a_step_that_is_asked_for_is_cut_to_the_cells_that_a_film_bears(viscosity, cells, taken):
+    """A steady film of 127 nm walked off to 210 by steps of 8 cells, and was called converged; by one cell
+    with two in the inlet it was 5 % too thin."""
+    found, mesh = scene({"lubricant.viscosity": viscosity}), Mesh(65, 65, (-2.0, 2.0), (-2.0, 2.0))
     cell = mesh.dX * found.framed.x_scale / 0.1
     pace = Pace(found, mesh, cells * cell)
-    assert pace.fitted(0.0, pace.first()) == pytest.approx(taken * cell)
+    assert pace.fitted(0.0, pace.first()) == pytest.approx(taken * cell, rel=1e-3)
 
 
 def test_no_step_goes_over_what_a_function_of_time_does(tmp_path):

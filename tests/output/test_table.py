@@ -78,10 +78,12 @@ def test_a_run_in_time_is_told_by_its_means():
     means = {name: {"value": float(i), "band": 0.1 * i} for i, name in enumerate(MEANS)}
     instant = {"central_film_nm": 99.0, "moes_film": {"central": 3.5}, "mixed": None}
     instant["error"] = {"reason": "of an instant"}
-    told = Told({}, with_means(instant | {"time": {"means": means}}))
+    error = {"means": {"friction": 0.2}}
+    told = Told({}, with_means(instant | {"time": {"means": means, "error": error}}))
     assert [told.number(QUANTITIES[name].path) for name in MEANS] == list(range(len(MEANS)))
     assert told.number("contact.load_fraction") == told.number("mixed.contact_load_share")
-    assert told.number("friction.coefficient_band") == pytest.approx(0.6)
+    assert told.number("friction.coefficient_band") == pytest.approx(0.6 + 0.2)
+    assert told.result["mixed"]["error"]["mean_nm"] is None  # passages alone tell no band
     assert told.result["error"]["reason"] == "of an instant"
     assert told.result["moes_film"] is None
     assert [of_what(each) for each in (told.result, {"time": {"means": {}}}, {})] == [PASSAGE, INSTANT, ""]

@@ -10,8 +10,8 @@ import mgehl
 from mgehl.output.gap_error import no_band
 from mgehl.output.mixed_result import MixedResult
 from mgehl.output.resolution import Resolution
-from mgehl.output.result import Mean
-from mgehl.output.time_words import mean_words
+from mgehl.output.result import Mean, TimeError
+from mgehl.output.time_words import mean_gap_words
 from mgehl.output.words import FAILED, UNRESOLVED
 from mgehl.solver.inequality import Inequality
 
@@ -29,8 +29,13 @@ def test_a_shear_in_time_that_no_oil_bears_is_named(shear, is_odd):
 
 def test_a_mean_is_rounded_as_its_band_is():
     """A report had 150 ± 30 on top and 148.9 ± 21 below."""
-    means = Mean(148.9, 21.0), Mean(0.25, 0.0), Mean(148.93, None), Mean(148.93, 1e-3)
-    assert [mean_words(mean) for mean in means] == ["150 ± 30", "0.25", "148.9", "148.9"]
+    means = Mean(148.9, 20.0), Mean(148.93, None), Mean(148.93, 1.0)
+    bands = {"mean_gap_nm": 1.0}, {"mean_gap_nm": 1e-3}, {}
+    times = [
+        in_time(means={"mean_gap_nm": mean}, error=TimeError("", means=band))
+        for mean, band in zip(means, bands, strict=True)
+    ]
+    assert [mean_gap_words(time) for time in times] == ["150 ± 30", "148.9", "148.9"]
 
 
 @pytest.mark.parametrize("crest, is_named", [(None, False), (0.002, False), (0.15, True)])

@@ -14,7 +14,7 @@ from mgehl.output.gap_error import GapError, GridGap
 from mgehl.output.mixed_result import MixedResult
 from mgehl.output.report.page import NO_NUMBER, picture
 from mgehl.output.report.run_report import report, setting, verdict
-from mgehl.output.result import Mean
+from mgehl.output.result import Mean, TimeError
 
 VOID = {"meta", "img", "br", "hr", "link", "input"}
 
@@ -159,7 +159,8 @@ def test_after_a_failure_every_number_says_so(film_run, quick, mark, settled):
 def test_a_run_in_time_tells_its_means_and_that_other_numbers_are_those_at_its_end(film_run, quick):
     """Only the record had the means, and an instant stood on top as if it were all."""
     told = "mean_gap_nm", "max_pressure_GPa", "load_on_solids", "friction"
-    time = in_time(means=dict.fromkeys(told, Mean(200.25, 0.5)))
+    error = TimeError("from there", means={"mean_gap_nm": 0.3})
+    time = in_time(means=dict.fromkeys(told, Mean(200.25, 0.2)), error=error)
     page = quick(film_run, time=time, flux_imbalance=None)
     assert page.highlights["mean gap over the last passage"] == "200.2 ± 0.5 nm"
     assert "central film at the end" in page.highlights and "central film" not in page.highlights
