@@ -33,12 +33,12 @@ JUST = 1e-9
 def expected_steps(scene, mesh, fixed=None):
     """Steps that a `Scene` will take on a mesh, if none is halved; of smooth bodies a guess."""
     times = [scene.end * part / FIRST_STEPS for part in range(FIRST_STEPS + 1)]
-    cells = sum(scene.fastest(scene.way(*ends), mesh) for ends in pairwise(times))
+    ways = [scene.way(*ends) for ends in pairwise(times)]
+    cells, mean = (sum(each(way, mesh) for way in ways) for each in (scene.fastest, scene.most_cells))
+    in_inlet = ceil(mean / min(scene.most_in_inlet(t, mesh) for t in scene.extremes))
     if fixed:
-        return max(ceil(scene.end / fixed), ceil(cells / scene.most_asked))
-    mean = sum(scene.most_cells(scene.way(*ends), mesh) for ends in pairwise(times))
-    in_inlet = mean / min(scene.most_in_inlet(t, mesh) for t in scene.extremes)
-    return max(int(max(cells / (MOST_CELLS_ROUGH if scene.moves else 1.0), in_inlet)), FIRST_STEPS // 4)
+        return max(ceil(scene.end / fixed), ceil(cells / scene.most_asked), in_inlet)
+    return max(int(cells / (MOST_CELLS_ROUGH if scene.moves else 1.0)), in_inlet, FIRST_STEPS // 4)
 
 
 @dataclass
@@ -92,9 +92,9 @@ class Pace:
         """A step in which the surfaces go no more cells than they may, a whole number where they go more
         than one."""
         for _ in range(3):
-            way = self.scene.way(t, t + step)
+            way, then = self.scene.way(t, t + step), min(t + step, self.scene.end)
             share = self.scene.fastest(way, self.mesh) / self._most_cells
-            share = max(share, self._mean(way) / self.scene.most_in_inlet(t + step, self.mesh))
+            share = max(share, self._mean(way) / self.scene.most_in_inlet(then, self.mesh))
             if share <= 1.0 + JUST:
                 break
             step /= share
