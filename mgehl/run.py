@@ -22,8 +22,8 @@ from mgehl.output.finish import finish_run
 from mgehl.output.forecast import check_memory
 from mgehl.output.friction_result import (
     banded,
+    banded_in_time,
     friction_result,
-    with_band,
     with_moments,
     with_unthinned,
 )  # fmt: skip
@@ -228,7 +228,7 @@ class _LoadedSolve:
         now = problem.moving(scene.speed.value(t))
         friction, maps = self._friction(now, outcome, scene.angle.value(t), steady=False)
         error = self._time_error(result, problem, task)
-        friction = with_band(friction, error.at_the_end.get("friction"))
+        friction = banded_in_time(friction, error.at_the_end.get("friction"))
         return with_bands(replace(result, friction=friction), problem.contact, error), maps
 
     def _time_error(self, result, problem, task):

@@ -12,7 +12,6 @@ from pathlib import Path
 
 from mgehl.commands import several, whole_number
 from mgehl.errors import OutputError, UserError
-from mgehl.output.files import PLOTS
 
 KINDS = (
     "all", "time", "lines", "film", "pressure", "status", "gap", "surface", "history", "shear", "flash_1",
@@ -64,6 +63,7 @@ def execute(options):
 
 def _movies(options):
     """Draw the movie of each run."""
+    from mgehl.output.files import PLOTS
     from mgehl.output.pictures.movie import write_movie
     from mgehl.output.stored import read_run
     from mgehl.output.whole_file import writing
@@ -88,6 +88,8 @@ def _curves(options):
 
 def _drawn(options, kinds):
     """Lists of pictures, each with its directory."""
+    from mgehl.output.files import PLOTS
+
     if options.against:
         return [([_curves(options)], Path(options.out or PLOTS))]
     from mgehl.output.pictures.figures import compared, figures

@@ -39,11 +39,8 @@ class Hierarchy:
     def coarser(self):
         """The same without its finest grid, which counts from nothing; its grids go with these."""
         rest = copy(self)
-        rest.grids, rest.transfers, rest.deflections = (
-            self.grids[:-1],
-            self.transfers[:-1],
-            self.deflections[:-1],
-        )
+        for name in ("grids", "transfers", "deflections"):
+            setattr(rest, name, getattr(self, name)[:-1])
         rest.go_on(0.0)
         return rest
 

@@ -141,7 +141,7 @@ def banded(friction, mixed, boundary_coefficient):
     return replace(friction, coefficient_band=band, is_the_grids=error.is_the_grids("solid_load_fraction"))
 
 
-def with_band(friction, half_width):
+def banded_in_time(friction, half_width):
     """A `FrictionResult` with the band of surfaces that slide; `half_width` is None where there is none."""
     if not (friction and friction.slide_to_roll):
         return friction

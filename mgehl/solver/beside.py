@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mgehl.solver.beginning import begin
 from mgehl.solver.films import GridFilm, films_beside, films_between_nodes
 from mgehl.solver.gaps import grid_gap
 from mgehl.solver.on_grid import solve_near
@@ -21,6 +22,9 @@ TOLERANCE, MAX_STEPS = 1e-5, 10
 
 MAX_STEPS_OF_ROUGH = 40
 """Most steps on the coarser grids for rough bodies' gaps: of 17 balls 16 settled in 3 to 17."""
+
+MAX_WORK_ANEW = 500
+"""Most convolutions of the coarser grid's where the finer answer leads nowhere there."""
 
 SPREADING_STEPS = 3
 """Steps in which contact may spread there: of 500 solves none settled in which it spread so often."""
@@ -60,7 +64,16 @@ class Beside:
             return (finest,)
         there, contact = _at_nodes(self._hierarchy.transfers[level], state), problem.contact
         problem, outcome = self._solve(level, contact, state, problem.scheme, max_steps=MAX_STEPS_OF_ROUGH)
+        if not outcome.converged:
+            problem, outcome = self._solve_anew()
         return finest, grid_gap(problem, outcome.state, outcome.converged, there)
+
+    def _solve_anew(self):
+        """Problem and `Outcome` on the next coarser grid, from nothing."""
+        newton = self.settings.newton
+        limits = {"tolerance": max(TOLERANCE, newton.tolerance), "max_work": MAX_WORK_ANEW}
+        task = self._task.but(newton=replace(newton, **limits))
+        return begin(replace(task, hierarchy=self._hierarchy.coarser()))
 
     def unthinned(self):
         """`ContactProblem` and `Outcome` on the finest grid without thinning by shear (collective)."""
