@@ -1,7 +1,8 @@
 """What is solved beside a run's answer, from it: the same contact on coarser grids, and with other oil.
 
 The error of the films follows from the coarser grids' films at the wanted speed. The finer answer is so
-near that a few steps do: 15 % of the finest grid's work for two, 5 to 30 % for that of rough gaps.
+near that a few steps do: 15 % of the finest grid's work for two, 5 to 30 % for that of rough gaps, if these
+do not have to begin anew.
 """
 
 from dataclasses import replace
