@@ -2,8 +2,8 @@
 
 That marches beside in steps of two: its differences have the error of the steps as well as the grid's. They
 fall with the first order, as the steps near contact and cavities do. Of 119 bands about runs on 65 and 129
-nodes, by steps that did not know the inlet, 111 held what 257 nodes foretell; a mean gap after a reversal was
-off by 2.4 times its band.
+nodes, by steps that did not know the inlet, 111 held what 257 nodes foretell; a mean gap after a reversal
+was off by 2.4 times its band.
 """
 
 from dataclasses import replace
