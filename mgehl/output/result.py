@@ -74,7 +74,8 @@ class HertzResult:
 
 @dataclass(frozen=True)
 class Mean:
-    """A mean over the last passage; `band` is None where there was but one."""
+    """A mean over the last passage; `band`, its difference from the one before, is None where there was but
+    one. It tells nothing of grid and steps: `TimeError` does."""
 
     value: float
     band: float | None

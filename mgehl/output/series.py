@@ -2,11 +2,12 @@
 
 It is written anew with every checkpoint and at the end. And the means over passages: what an engineer asks
 of roughness that moves. A passage is the time in which all heights that move go the length of the Hertz
-contact of the present load, and of smooth bodies the mean surface (`Scene.passage`). The band of a mean is
-what the means of the last two passages differ by; it has settled where that is little.
+contact of the present load, and of smooth bodies the mean surface (`Scene.passage`). Beside a mean
+stands by how much those of the last two passages differ; what grid and steps make of it is `time_error`'s.
 """
 
 from itertools import pairwise
+from math import nan
 
 import numpy as np
 
@@ -159,21 +160,20 @@ def means(rows, gone):
     """{name: `Mean`} of the last passage, `gone` as `passed` says; empty before the end of the first."""
     if gone[-1] < 1.0:
         return {}
-    weights = np.array([row["step_s"] for row in rows])
-    last, before = (_passages_ago(gone) == k for k in (0, 1))
     found = {}
     for name in MEANS:
-        values = np.array([row[name] for row in rows])
-        mean = float(np.average(values[last], weights=weights[last]))
-        two = gone[-1] >= 2.0 and before.any()
-        earlier = float(np.average(values[before], weights=weights[before])) if two else None
-        found[name] = Mean(mean, None if earlier is None else abs(mean - earlier))
+        before, last = _of_passages(rows, gone, name, 2)
+        two = gone[-1] >= 2.0 and np.isfinite(before)
+        found[name] = Mean(last, abs(last - before) if two else None)
     return found
 
 
-def _passages_ago(gone):
-    """0 of rows in the last passage, 1 of those in the one before, ..., (rows,)."""
-    return np.floor(gone[-1] - gone + ROUNDING)
+def _of_passages(rows, gone, name, count):
+    """Means of a column over that many passages, the last one the last; nan of one without a step."""
+    weights, values = (np.array([row[each] for row in rows]) for each in ("step_s", name))
+    ago = np.floor(gone[-1] - gone + ROUNDING)
+    passages = (ago == k for k in reversed(range(count)))
+    return [float(np.average(values[one], weights=weights[one])) if one.any() else nan for one in passages]
 
 
 def over_all(rows, scene):
@@ -191,20 +191,15 @@ def have_settled(rows, scene):
     gone = passed(rows, scene)
     if gone[-1] < FEWEST:
         return False
-    gap, solids = (_of_three(rows, gone, name) for name in ("mean_gap_nm", "load_on_solids"))
+    gap, solids = (_of_passages(rows, gone, name, 3) for name in ("mean_gap_nm", "load_on_solids"))
     return _left(*gap) <= SETTLED * gap[-1] and _left(*solids) <= SETTLED
 
 
-def _of_three(rows, gone, name):
-    """Means of a column over the last three passages, the last one the last; nan of one without a step."""
-    weights, values = (np.array([row[each] for row in rows]) for each in ("step_s", name))
-    passages = (_passages_ago(gone) == k for k in (2, 1, 0))
-    return [np.average(values[one], weights=weights[one]) if one.any() else np.nan for one in passages]
-
-
 def _left(first, second, third):
-    """What three values that follow each other still change by: as a geometric series where they go one
-    way. A light ball approaches its film so slowly that ten passages' changes were left."""
+    """What is left to change after three values: the rest of a geometric series where they go one way.
+
+    A light ball's film changed by 0.9 % in a passage, and 10 % were left.
+    """
     before, last = second - first, third - second
     ratio = last / before if before else 0.0
     return abs(last) / (1.0 - min(max(ratio, 0.0), SLOWEST))
