@@ -1,9 +1,9 @@
 """The bands about a run in time, its means and the state at its end: by what the next coarser grid differs.
 
-The coarser grid marches beside in steps of two: the differences have the error of the steps as well as the
-grid's. They fall with the first order, as the steps near contact and cavities do. Of 119 bands about runs on
-65 and 129 nodes, by steps that did not know the inlet, 111 held what 257 nodes foretell; a mean gap after a
-reversal was off by 2.4 times its band.
+The coarser grid marches beside in steps of two: the differences have the error of the steps as well as
+the grid's. They fall with the first order, as the steps near contact and cavities do. Of 119 bands
+about runs on 65 and 129 nodes, by steps that did not know the inlet, 111 held what 257 nodes foretell;
+a mean gap after a reversal was off by 2.4 times its band.
 """
 
 from dataclasses import replace
