@@ -11,6 +11,7 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.errors import ConfigError, Stopped, UserError
 from mgehl.kinds import contact_from
 from mgehl.run import Watch, enter, run
+from mgehl.solver.pace import SHORTEST
 
 BALL = {
     "contact.load": 15.0, "contact.radius_x": 0.0125, "contact.radius_y": 0.0125,
@@ -276,6 +277,23 @@ def test_twice_the_load_in_an_instant(course):
     assert after.summary.converged
     assert column(after, "load_share")[-1] == 2.0
     assert column(after, "max_pressure_GPa")[-1] > 1.2 * column(after, "max_pressure_GPa")[0]
+
+
+@pytest.mark.parametrize("how", ["by a function", "by a table"])
+@pytest.mark.parametrize(("key", "first", "last"), [("contact.load", 15.0, 20.0), ("motion.speed", 0.09, 0.0)])
+def test_what_jumps_makes_no_step_too_short(tmp_path, course, how, key, first, last):
+    """Steps whose squeeze is all there is would not settle."""
+    when, own = 0.1 * UNIT, tmp_path / "own.py"
+    own.write_text(f"def jump(t):\n    return {first} if t < {when} else {last}\n")
+    table = course((0.0, first), (when, first), (when + 1e-12, last), (1.0, last))
+    after = solved({key: table if how == "by a table" else f"{own}:jump"}, time__end=0.2 * UNIT)
+    times, steps = column(after, "time_s"), column(after, "step_s")
+    assert after.summary.converged
+    shortest = SHORTEST * UNIT * (after.x[1] - after.x[0]) / after.contact.x_scale
+    assert steps.min() > 0.99 * shortest
+    name, begin = {"contact.load": ("load_share", 1.0), "motion.speed": ("speed_mm_s", 90.0)}[key]
+    assert np.all(column(after, name)[times < when - 1e-9] == begin)
+    assert np.all(column(after, name)[times > when + shortest] == begin * last / first)
 
 
 def test_the_end_is_told_by_the_load_of_the_end(course):

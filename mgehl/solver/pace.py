@@ -23,6 +23,10 @@ STRAIGHT = 0.05
 """Part of its range by which a function of time may leave a straight line within a step: a wave has seven
 steps."""
 
+SHORTEST = 0.02
+"""Cells that the fastest surfaces of a run go in the shortest step that a kink or a jump is met with: a jump
+lasts as long. Beside the squeeze of a step of 1e-4 cells the rest is lost, and it does not settle."""
+
 HALVINGS = 10
 """Times that a step is halved before a run is given up."""
 
@@ -55,6 +59,10 @@ class Pace:
             return self.scene.most_asked
         return MOST_CELLS_ROUGH if self.scene.moves else MOST_CELLS
 
+    @property
+    def _shortest(self):
+        return SHORTEST * self.scene.unit * self.mesh.dX
+
     def first(self):
         """The first step in s."""
         return self.fixed or min(self.scene.end / FIRST_STEPS, self.scene.unit * self.mesh.dX)
@@ -79,10 +87,10 @@ class Pace:
         kinks = [kink - t for kink in self.scene.kinks()]
         # The end of a table may be that of the run but for rounding.
         kinks = [each for each in kinks if each < left - ROUNDED * self.scene.end]
-        ends = [each for each in (left, *kinks) if each > JUST * self.scene.end]
+        ends = [left, *(each for each in kinks if each > max(self._shortest, JUST * self.scene.end))]
         step, nearest = self._in_cells(t, step), min(ends)
-        while self.scene.bend(t, t + min(step, nearest)) > STRAIGHT:
-            step = 0.5 * min(step, nearest)
+        while (step := min(step, nearest)) > self._shortest and self.scene.bend(t, t + step) > STRAIGHT:
+            step = max(0.5 * step, self._shortest)
         if step >= nearest * (1.0 - JUST):
             return nearest
         # No crumb is left over.
