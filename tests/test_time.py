@@ -280,7 +280,9 @@ def test_twice_the_load_in_an_instant(course):
 
 
 @pytest.mark.parametrize("how", ["by a function", "by a table"])
-@pytest.mark.parametrize(("key", "first", "last"), [("contact.load", 15.0, 20.0), ("motion.speed", 0.09, 0.0)])
+@pytest.mark.parametrize(
+    ("key", "first", "last"), [("contact.load", 15.0, 20.0), ("motion.speed", 0.09, 0.0)]
+)
 def test_what_jumps_makes_no_step_too_short(tmp_path, course, how, key, first, last):
     """Steps whose squeeze is all there is would not settle."""
     when, own = 0.1 * UNIT, tmp_path / "own.py"

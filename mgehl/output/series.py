@@ -176,10 +176,15 @@ def _of_passages(rows, gone, name, count):
     return [float(np.average(values[one], weights=weights[one])) if one.any() else nan for one in passages]
 
 
-def over_all(rows, scene):
-    """{name: mean over all steps} where speed or load of a `Scene` change; else nothing."""
+def has_whole(scene):
+    """Whether a mean over the whole run is asked for: where speed or load of a `Scene` change."""
     least, most = scene.load.range(scene.end)
-    if scene.is_steady and least == most:
+    return not scene.is_steady or least != most
+
+
+def over_all(rows, scene):
+    """{name: mean over all steps}, where they are asked for; else nothing."""
+    if not has_whole(scene):
         return {}
     weights = [row["step_s"] for row in rows]
     return {name: float(np.average([row[name] for row in rows], weights=weights)) for name in MEANS}

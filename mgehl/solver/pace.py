@@ -24,8 +24,8 @@ STRAIGHT = 0.05
 steps."""
 
 SHORTEST = 0.02
-"""Cells that the fastest surfaces of a run go in the shortest step that a kink or a jump is met with: a jump
-lasts as long. Beside the squeeze of a step of 1e-4 cells the rest is lost, and it does not settle."""
+"""Cells that the fastest surfaces of a run go in the shortest step by which a kink or a jump is met. Steps
+of 1e-4 cells do not settle: beside their squeeze the rest is lost."""
 
 HALVINGS = 10
 """Times that a step is halved before a run is given up."""

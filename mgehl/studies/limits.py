@@ -85,8 +85,8 @@ def summary(bands):
             "hold the limit": str(held),
             "in %": f"{100.0 * held / max(len(known), 1):.0f}",
             "median of half-width/error": _median(b.half_width / b.off for b in known if b.off > 0.0),
-            "median half-width %": _median(100.0 * b.half_width / b.value for b in known),
-            "median error %": _median(100.0 * b.off / b.limit for b in known),
+            "median half-width %": _median(100.0 * b.half_width / b.value for b in known if b.value),
+            "median error %": _median(100.0 * b.off / b.limit for b in known if b.limit),
         }
 
 
