@@ -72,16 +72,18 @@ def solve(
 
     Returns the `Solution`, whether or not it converged: ask `.summary.converged`. `start` is another
     `Solution` to start from, of any grid and speed, with its fields on rank 0, or its run directory. With
-    `speak`, rank 0 prints a line for each cycle. Ctrl-C ends it before the next step, with
-    KeyboardInterrupt; a second one ends it at once. Raises `mgehl.ConfigError` where the values make no
-    contact that can be solved, and `mgehl.UserError` where `start` is another kind of contact, or one in
-    time between other heights.
+    `speak`, rank 0 prints a line for each cycle. What is unusual in the input is warned of.
+
+    Ctrl-C ends it before the next step, with KeyboardInterrupt; a second one ends it at once. Raises
+    `mgehl.ConfigError` where the values make no contact that can be solved, and `mgehl.UserError` where
+    `start` is another kind of contact, or one in time between other heights.
     """
     config = config if isinstance(config, Config) else load(config)
     leave_signals_alone()
     from mpi4py import MPI
 
     from mgehl.answer import Solution
+    from mgehl.kinds.plausible import implausible
     from mgehl.output.files import on_first_rank
     from mgehl.output.solution import on_every_rank
     from mgehl.output.stored import read_run
@@ -93,6 +95,9 @@ def solve(
 
     comm = MPI.COMM_WORLD if comm is None else comm
     case = enter(config, comm)
+    if comm.rank == 0:
+        for words in implausible(case.config, case.contact):
+            warn(f"unusual: {words}", stacklevel=2)
     is_path = isinstance(start, str | PathLike)
     begin = on_every_rank(comm, on_first_rank(comm, read_run, start)) if is_path else start
     if begin is not None:

@@ -70,6 +70,12 @@ def test_what_a_file_does_not_give_is_warned_of(tmp_path):
         mgehl.load(None, FILM), mgehl.load(CONFIGS / "wavy.toml")
 
 
+def test_what_is_unusual_is_warned_of():
+    config = mgehl.load(None, FILM | {"motion.slide_to_roll": 20.0, "solver.error": False})
+    with pytest.warns(UserWarning, match="unusual: motion.slide_to_roll = 20: .* not in per cent"):
+        assert mgehl.solve(config).summary.converged
+
+
 class TestShown:
     def test_on_one_screen(self, film):
         heading, *words = repr(film).splitlines()

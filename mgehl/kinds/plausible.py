@@ -8,6 +8,7 @@ from mgehl.kinds.loaded_checks import LARGEST_CONTACT, on_the_bodies
 from mgehl.kinds.surface_kinds import MOVING, NAMES, STILL, every_surface
 from mgehl.kinds.time import begins_at_rest, course, range_of, reference, scene_of
 from mgehl.model.films import formula_of
+from mgehl.model.flash import has_temperatures
 from mgehl.model.frame import direction
 from mgehl.model.lubricant import USUAL_CONDUCTIVITY, Roelands
 from mgehl.model.oils import CELSIUS, OILS
@@ -53,6 +54,9 @@ SMEARED = 0.25
 """Part of a cell below which shorter steps may do harm: a film under a load and a speed that swing is 7 %
 off on 65 nodes with a sixth of a cell in a step, 2 % with two thirds."""
 
+AGAINST = 2.0
+"""Slide-to-roll ratio from which on one body moves against the other; one in per cent is as large, too."""
+
 APART = 1000.0
 """Ratio of two formulas of which one cannot be meant."""
 
@@ -85,9 +89,10 @@ def implausible(config, contact):
             "look at viscosity and pressure_viscosity"
         )
     yield from _films(config, contact)
+    yield from _against(contact)
     yield from _stands_still(config)
     yield from _turned_axes(config)
-    yield from _without_temperatures(config)
+    yield from _without_temperatures(config, contact)
     yield from _parts_from_rest(config)
     yield from _either_body(config)
     yield from _odd_steps(config, contact)
@@ -195,6 +200,16 @@ def _films(config, contact):
         )
 
 
+def _against(contact):
+    """Bodies that move against each other."""
+    slides = contact.friction.slide_to_roll
+    if abs(slides) > AGAINST:
+        yield (
+            f"motion.slide_to_roll = {slides:g}: above {AGAINST:g} one body moves against the other; it is "
+            "a ratio, not in per cent"
+        )
+
+
 def _stands_still(config):
     """Roughness that stands still on a body that moves."""
     motion, slide = config.motion, config.inputs.get("motion.slide_to_roll", config.motion.slide_to_roll)
@@ -229,12 +244,17 @@ def _turned_axes(config):
         yield f"motion.ring_rotation is a speed {along_x} {angle:g}: bearings roll along x"
 
 
-def _without_temperatures(config):
+def _without_temperatures(config, contact):
     """Bodies that conduct, in time; beside oil of which that is not known."""
     if solids_from(config) is None:
         return
     if config.is_in_time:
         yield "heat: a run in time tells no temperatures; a steady run of an instant does"
+    elif contact.friction.slide_to_roll and not has_temperatures(contact):
+        yield (
+            f"heat: no temperatures are told at motion.slide_to_roll = {contact.friction.slide_to_roll:g}: "
+            "below a line contact, a body at rest grows warmer for ever; 1.99 has one"
+        )
     elif config.lubricant.conductivity is None:
         yield (
             f"lubricant.conductivity is not given: flash temperatures take {USUAL_CONDUCTIVITY:g} W/(m K), "

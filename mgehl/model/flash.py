@@ -29,6 +29,12 @@ TOLERANCE = 1e-6
 """Relative, of the parts of the heat."""
 
 
+def has_temperatures(contact):
+    """Whether a contact has flash temperatures: a band of heat on a body at rest grows for ever."""
+    slides, stands = contact.friction.slide_to_roll, abs(contact.friction.slide_to_roll) == 2.0
+    return bool(slides) and contact.solids is not None and not (contact.is_line and stands)
+
+
 @dataclass(frozen=True)
 class Solid:
     """What a body makes of heat."""

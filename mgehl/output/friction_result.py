@@ -5,8 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mgehl.discretization.status import is_fluid
+from mgehl.model.flash import has_temperatures
 from mgehl.solver.gaps import gaps
-from mgehl.solver.heat import has_temperatures, rise_of
+from mgehl.solver.heat import rise_of
 from mgehl.solver.shear import flows_out_whole, shear_of
 
 

@@ -35,12 +35,6 @@ def rise_of(problem, state, shear):
     return Rise(first, second, 0.5 * (first + second) + heat * resistance / 12.0)
 
 
-def has_temperatures(contact):
-    """Whether a contact has flash temperatures: a band of heat on a body at rest grows for ever."""
-    slides, stands = contact.friction.slide_to_roll, abs(contact.friction.slide_to_roll) == 2.0
-    return bool(slides) and contact.solids is not None and not (contact.is_line and stands)
-
-
 def _rises(contact, mesh, heat, resistance):
     """Rises of both surfaces, (ny, nx), in the axes of the solve."""
     half = 0.5 * contact.friction.slide_to_roll

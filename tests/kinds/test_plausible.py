@@ -146,6 +146,22 @@ def test_a_run_in_time_says_that_it_tells_no_temperatures():
     assert not any("no temperatures" in line for line in odd(BALL | bodies))
 
 
+@pytest.mark.parametrize(
+    "slides, said", [(2.0, "motion.slide_to_roll = 2: below a line contact"), (1.99, ""), (0.0, "")]
+)
+def test_a_line_contact_above_a_body_at_rest_says_that_it_tells_no_temperatures(slides, said):
+    bodies = {f"heat.{key}_{body}": value for body in (1, 2) for key, value in STEEL.items()}
+    line = {"contact.kind": "line", "contact.load_per_length": 1e5, "motion.slide_to_roll": slides}
+    found = [words for words in odd(BALL | bodies | line) if "no temperatures" in words]
+    assert len(found) == bool(said) and all(said in words for words in found)
+
+
+@pytest.mark.parametrize("slides, is_odd", [(20.0, True), (-5.0, True), (2.0, False), (-0.1, False)])
+def test_a_slide_to_roll_ratio_in_per_cent_is_named(slides, is_odd):
+    found = odd(BALL | {"motion.slide_to_roll": slides})
+    assert any("a ratio, not in per cent" in words for words in found) == is_odd
+
+
 @pytest.mark.parametrize("other, is_odd", [("aluminium", True), ("steel", False)])
 def test_a_coating_on_either_of_two_bodies_says_what_it_takes(other, is_odd):
     coated = {"contact.deformation": "coated", "coating.thickness": 1e-5, "coating.modulus": 4e9}
