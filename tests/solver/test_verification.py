@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+import mgehl
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
@@ -32,19 +33,29 @@ class TestEdge:
 
     @pytest.mark.parametrize("node", [(1, 4), (7, 4), (4, 1), (4, 7), (1, 1), (7, 7)])
     def test_the_pressure_beside_each_side_is_seen(self, tiny_problem, dome, node):
-        dome.P[node], mesh = 0.25, tiny_problem.grid.mesh
+        dome.P[node], mesh = 0.05, tiny_problem.grid.mesh
         cell = min(cell for cell, k in zip((mesh.dY, mesh.dX), node, strict=True) if k in (1, 7))
-        assert check_edge(tiny_problem, dome).pressure_ratio == pytest.approx(0.25 * NEAR / cell, rel=1e-14)
+        assert check_edge(tiny_problem, dome).pressure_ratio == pytest.approx(0.05 * NEAR / cell, rel=1e-14)
 
-    @pytest.mark.parametrize("nodes", [9, 17, 33])
-    def test_it_does_not_depend_on_the_cells(self, make_problem, nodes):
-        """Of a pressure that rises from all sides in proportion to the distance, to 1.5 in the middle."""
-        problem = make_problem(nodes=nodes)
+    @pytest.mark.parametrize("nodes", [33, 65, 129])
+    @pytest.mark.parametrize("half", [0.5, 1.0, 2.0])
+    def test_it_goes_by_the_loaded_zone_and_not_by_the_cells(self, make_problem, nodes, half):
+        """Of a pressure that rises from all sides in proportion to the distance, and is 4 in the middle."""
+        problem = make_problem(nodes=nodes, x=[-4.0, 4.0], y=[-4.0, 4.0])
         mesh = problem.grid.mesh
         from_x, from_y = (np.minimum(at - at[0], at[-1] - at) for at in (mesh.X, mesh.Y))
-        P = np.minimum(from_x[None, :], from_y[:, None])
+        P = 0.05 * np.minimum(from_x[None, :], from_y[:, None])
+        P[np.maximum(np.abs(mesh.X)[None, :], np.abs(mesh.Y)[:, None]) <= half] = 4.0
         edge = check_edge(problem, State(P, 0.0, np.ones(P.shape), np.ones(P.shape, np.int8)))
-        assert edge.pressure_ratio == pytest.approx(NEAR / 1.5, rel=1e-12)
+        assert edge.pressure_ratio == pytest.approx(0.05 * NEAR * max(half, 1.0) / 4.0, rel=1e-12)
+
+    @pytest.mark.parametrize("ends, is_cut", [((-600.0, 8.0), True), ((-600.0, 20.0), False)])
+    def test_a_light_roller_is_cut_downstream(self, ends, is_cut):
+        """Its loaded zone is 34 semi-axes wide either way; its films on both domains are 2 % apart."""
+        light = {"contact.kind": "line", "contact.load_per_length": 1e3, "lubricant.viscosity": 0.1}
+        more = {"motion.speed": 0.5, "grid.x": list(ends), "grid.nodes": 513, "solver.error": False}
+        result = mgehl.solve(mgehl.load(None, light | more)).result
+        assert result.edge.cuts == is_cut and result.converged != is_cut
 
     @pytest.mark.parametrize("node", [(0, 4), (8, 4), (4, 0), (4, 8), (0, 0)])
     def test_bodies_that_overlap_on_the_boundary_are_seen(self, tiny_problem, dome, node):
