@@ -193,7 +193,8 @@ class March:
             reached = outcome.cycles[-1].residual
             if outcome.converged:
                 self._close(outcome.state)
-            if not outcome.converged or reached <= settings.least or self._closes(outcome.state, leg):
+            at_the_end = reached <= settings.least or reached > tolerance  # which rounding alone leaves
+            if not outcome.converged or at_the_end or self._closes(outcome.state, leg):
                 return outcome
             state, tolerance = outcome.state, max(settings.least, FINER * reached)
 

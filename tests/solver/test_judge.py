@@ -7,6 +7,7 @@ from petsc4py import PETSc
 from mgehl.solver.judge import (
     GO_ON,
     IDLE_CIRCLE,
+    ROUNDED,
     STALLS,
     SetsChange,
     Verdict,
@@ -37,8 +38,8 @@ def partition(tiny_problem):
 def make_position(state, partition):
     """Factory of the position of a film whose cycles have these residuals, the last one these changes."""
 
-    def make(*residuals, changes=None, load=0.0, step=7, stalls=0):
-        cycles = [Cycle(step, each, load, 1.0, 1.0, 0, 0, changes or Changes()) for each in residuals]
+    def make(*residuals, changes=None, load=0.0, step=7, stalls=0, film=1.0):
+        cycles = [Cycle(step, each, load, film, film, 0, 0, changes or Changes()) for each in residuals]
         return Position(state.copy(), partition.past, cycles, stalls=stalls)
 
     return make
@@ -60,6 +61,13 @@ VERDICTS = {
     "nearly unsolved": ([1e-3], {"stalls": STALLS - 1}, ""),
     "idle": (IDLE, {}, f"residual 9.5e-01 after 7 steps: the last {IDLE_STEPS} did not lower it"),
     "nearly idle": (IDLE[:-1], {}, ""),
+    "rounding beside a thick film": (
+        (ROUNDED + 1) * [2e-8],
+        {"film": 67.0},
+        "residual, load and sets settled",
+    ),
+    "not yet rounding": (ROUNDED * [2e-8], {"film": 67.0}, ""),
+    "more than rounding": ((ROUNDED + 1) * [2e-8], {"film": 1.9}, ""),
     "falls slowly": ([0.98**k for k in range(40)], {}, ""),
     "waits for its sets": ((IDLE_STEPS + 3) * [TOLERANCE], {"changes": FILLED}, ""),
 }
