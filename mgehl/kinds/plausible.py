@@ -1,12 +1,11 @@
 """Input that is allowed, and yet unusual: most often a wrong unit. Each is named; none is refused."""
 
-import numpy as np
-
 from mgehl.kinds.bodies import BODIES
 from mgehl.kinds.heat import solids_from
 from mgehl.kinds.loaded_checks import LARGEST_CONTACT, on_the_bodies
+from mgehl.kinds.plausible_in_time import FASTEST, implausible_in_time
 from mgehl.kinds.surface_kinds import MOVING, NAMES, STILL, every_surface
-from mgehl.kinds.time import begins_at_rest, course, range_of, reference, scene_of
+from mgehl.kinds.time import reference
 from mgehl.model.films import formula_of
 from mgehl.model.flash import has_temperatures
 from mgehl.model.frame import direction
@@ -20,16 +19,13 @@ USUAL = {
     "contact.reduced_modulus": (5e3, 1.3e12, "Pa"),
     "lubricant.viscosity": (2e-4, 5.0, "Pa s"),
     "lubricant.pressure_viscosity": (3e-10, 6e-8, "1/Pa"),
-    "motion.speed": (0.0, 200.0, "m/s"),
+    "motion.speed": (0.0, FASTEST, "m/s"),
     "body_1.roughness": (0.0, 2e-5, "m"),
     "body_2.roughness": (0.0, 2e-5, "m"),
     "body_1.Ra": (0.0, 2e-5, "m"),
     "body_2.Ra": (0.0, 2e-5, "m"),
 }
 """{key: smallest and largest value of machines, from gels to diamond and from petrol to gear oil, unit}."""
-
-LARGEST_TURN = 180.0
-"""Degrees from one value of a course to the next that may be meant."""
 
 HARD = 1e10
 """E' in Pa from which on bodies are hard: gels, rubber and plastics are pressed lightly, and by right."""
@@ -49,10 +45,6 @@ STEEPEST_HEIGHTS = 0.2
 SLENDER = 8.0
 """R_x/R_y from which on no formula is made for the contact. Solved films are 1.3, 1.4 and 1.5 times
 Nijenbanning's at 10, 20 and 34, and half and less of Hamrock and Dowson's."""
-
-SMEARED = 0.25
-"""Part of a cell below which shorter steps may do harm: a film under a load and a speed that swing is 7 %
-off on 65 nodes with a sixth of a cell in a step, 2 % with two thirds."""
 
 AGAINST = 2.0
 """Slide-to-roll ratio from which on one body moves against the other; one in per cent is as large, too."""
@@ -93,10 +85,9 @@ def implausible(config, contact):
     yield from _stands_still(config)
     yield from _turned_axes(config)
     yield from _without_temperatures(config, contact)
-    yield from _parts_from_rest(config)
     yield from _either_body(config)
-    yield from _odd_steps(config, contact)
-    yield from _leaps(config)
+    if config.is_in_time:
+        yield from implausible_in_time(config, contact)
     if config.lubricant.oil is not None:
         yield from _range(config.lubricant, contact.hertz.p_h)
 
@@ -119,41 +110,6 @@ def _steep(contact):
         yield (
             f"the surface's rms slope is {slope:.2g}: from {STEEPEST_HEIGHTS:g} on its square is no longer "
             "small, as is assumed: look at heights and wavelengths"
-        )
-
-
-def _odd_steps(config, contact):
-    """Of a run in time whose surfaces go more cells in a step, or less of one, than suits its scheme."""
-    if not (config.is_in_time and config.time.step):
-        return
-    fastest = max(map(abs, range_of(config, "motion.speed")))
-    mesh = config.kind.mesh(config, contact)
-    way = fastest * config.time.step * np.array(contact.motion)
-    scene = scene_of(config, contact)
-    cells, most = scene.fastest(way, mesh), scene.most_asked
-    mean, in_inlet = scene.most_cells(way, mesh), min(scene.most_in_inlet(t, mesh) for t in scene.extremes)
-    if cells > most or mean > in_inlet:
-        yield (
-            f"time.step = {config.time.step:.4g} s: surfaces would go up to {cells:.3g} cells in a step; "
-            f"steps are cut to {most:g}, and to {in_inlet:.2g} of the mean surface, for the inlet is short"
-        )
-    if 0.0 < cells < SMEARED:
-        yield (
-            f"time.step = {config.time.step:.4g} s: surfaces go {cells:.2g} of a cell in a step at most; "
-            f"below {SMEARED:g} what is carried along is smeared: the bands tell how much"
-        )
-
-
-def _leaps(config):
-    """Of a direction that changes with time, where it turns nearly all the way back, as after 360."""
-    if not isinstance(config.motion.angle, str):
-        return
-    found = course("motion.angle", config.motion.angle)
-    turns = np.abs(np.diff([found.value(t) for t in found.times(config.time.end)])).max()
-    if turns > LARGEST_TURN:
-        yield (
-            f"motion.angle = {config.motion.angle!r}: turns by {turns:.4g} degrees from one value to the "
-            "next; beyond 360 it goes on: 358, 362"
         )
 
 
@@ -249,8 +205,8 @@ def _without_temperatures(config, contact):
     if solids_from(config) is None:
         return
     if config.is_in_time:
-        yield "heat: a run in time tells no temperatures; a steady run of an instant does"
-    elif contact.friction.slide_to_roll and not has_temperatures(contact):
+        return
+    if contact.friction.slide_to_roll and not has_temperatures(contact):
         yield (
             f"heat: no temperatures are told at motion.slide_to_roll = {contact.friction.slide_to_roll:g}: "
             "below a line contact, a body at rest grows warmer for ever; 1.99 has one"
@@ -260,16 +216,6 @@ def _without_temperatures(config, contact):
             f"lubricant.conductivity is not given: flash temperatures take {USUAL_CONDUCTIVITY:g} W/(m K), "
             "as is usual"
         )
-
-
-def _parts_from_rest(config):
-    """A start from rest of bodies without layers."""
-    if config.contact.boundary_film or not begins_at_rest(config):
-        return
-    yield (
-        "contact.boundary_film is not given: bodies at rest part on films as thin as rounding; until they "
-        "have parted, load on contact and friction mean nothing; 2 nm is usual"
-    )
 
 
 def _either_body(config):

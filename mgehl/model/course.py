@@ -96,6 +96,11 @@ class Table(Course):
         """Words over the two columns; none where there are none."""
         return self._file.heading or []
 
+    @property
+    def last(self):
+        """Its last time in s."""
+        return float(self._columns[0][-1])
+
     @cached_property
     def _columns(self):
         values, lines = self._file.values, self._file.lines
