@@ -209,19 +209,6 @@ def test_a_step_in_time_that_leaps_over_waves_is_named(step, is_odd):
     assert any("cells in a step" in line for line in found) == is_odd
 
 
-@pytest.mark.parametrize(
-    "rows, end, said",
-    [("0,1\n4,2\n", "4 ms", "goes on to 4 s, and the run ends at 0.004 s: look at the unit of its times"),
-     ("time_ms,speed_m_s\n0,1\n4,2\n", "4 ms", ""), ("0,1\n4,2\n", 1.0, ""),
-     ("0,1\n4,4000\n", 4.0, "up to 4000 m/s: machines have 0 to 200")],
-)  # fmt: skip
-def test_a_table_in_another_unit_is_named(tmp_path, rows, end, said):
-    course = tmp_path / "speed.csv"
-    course.write_text(rows)
-    found = [line for line in odd({"motion.speed": str(course), "time.end": end}) if "motion.speed" in line]
-    assert len(found) == bool(said) and all(said in line for line in found)
-
-
 @pytest.mark.parametrize("step, is_odd", [("20 us", False), ("2 us", True)])
 def test_a_step_of_a_small_part_of_a_cell_is_named(step, is_odd):
     found = odd({"motion.speed": 0.5, "time.end": 6e-4, "time.step": step, "grid.nodes": 65})
