@@ -27,7 +27,7 @@ from mgehl.output.friction_result import (
     with_moments,
     with_unthinned,
 )  # fmt: skip
-from mgehl.output.gap_error import gap_error
+from mgehl.output.gap_error import gap_error, of_films
 from mgehl.output.laws import law_files
 from mgehl.output.lock import locked
 from mgehl.output.result import Making, Work
@@ -168,10 +168,11 @@ class _LoadedSolve:
         problem, outcome, steps = self._solved()
         result = summarise(problem, outcome, self._tolerance, self._making(steps))
         beside = Beside(replace(self._task, monitor=self.monitor.beside), problem, outcome.state)
-        result = replace(result, **self._bands(result, beside), recipe=self._recipe(outcome))
+        result, loads = self._with_bands(result, beside)
         friction, maps = self._friction(problem, outcome, self.case.contact.angle)
-        friction = self._compared(friction, result, beside)
-        result = replace(result, friction=friction, wall_s=self.monitor.seconds)
+        friction = self._compared(friction, result, loads, beside)
+        recipe, seconds = self._recipe(outcome), self.monitor.seconds
+        result = replace(result, friction=friction, recipe=recipe, wall_s=seconds)
         return self._solution(problem, outcome, result, maps)
 
     def _solved(self):
@@ -186,20 +187,23 @@ class _LoadedSolve:
         outcome = close_account(task, problem, outcome)
         return problem, outcome, self.monitor.steps
 
-    def _bands(self, result, beside):
-        """{part of the result: it with its bands}."""
+    def _with_bands(self, result, beside):
+        """The `Result` with its bands, and the `GapError` of what carries its load."""
         mixed = result.mixed and replace(result.mixed, error=gap_error(result, beside, self.monitor))
-        return {"mixed": mixed, "error": film_error(result, beside, self.monitor)}
+        error = film_error(result, beside, self.monitor)
+        loads = (mixed and mixed.error) or of_films(error, beside)
+        pressure = loads.max_pressure_GPa
+        return replace(result, mixed=mixed, error=error, max_pressure_band_GPa=pressure), loads
 
     def _friction(self, problem, outcome, angle, steady=True):
         """The `FrictionResult` of surfaces that go at an `angle`, and its maps."""
         friction, maps = friction_result(problem, outcome.state, steady)
         return with_moments(friction, arms(self.case.config, angle)), maps
 
-    def _compared(self, friction, result, beside):
+    def _compared(self, friction, result, loads, beside):
         """A `FrictionResult` with its band, and with the films that shear would not thin."""
         settings, of_contact = self._task.settings, self._task.contact.friction
-        friction = banded(friction, result.mixed, of_contact.boundary_coefficient)
+        friction = banded(friction, loads, of_contact.boundary_coefficient)
         if friction and of_contact.thins and settings.error:
             return with_unthinned(friction, result, beside.unthinned)
         return friction

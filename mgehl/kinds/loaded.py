@@ -199,8 +199,8 @@ class LoadedKind(Kind):
             "loaded_gap": _nm(gaps, "loaded_gap_nm", "mean gap by pressure"),
             "mean_gap_error": _nm(gap_error, "mean_nm"),
             "loaded_gap_error": _nm(gap_error, "loaded_nm"),
-            "maximum_pressure_error": _GPa(gap_error, HALF_WIDTH),
-            "maximum_pressure": _GPa(result, "largest pressure"),
+            "maximum_pressure_error": _GPa(result, "max_pressure_band_GPa"),
+            "maximum_pressure": _GPa(result, "max_pressure_GPa", "largest pressure"),
             "group_U": (groups.U, "1", "speed parameter U"),
             "group_W": (groups.W, "1", "load parameter W"),
             "group_G": (groups.G, "1", "material parameter G"),
@@ -222,9 +222,9 @@ def _nm(of, name, meaning=HALF_WIDTH):
     return None if value is None else (1e-9 * value, "m", meaning)
 
 
-def _GPa(of, meaning):
-    """The same of its largest pressure."""
-    value = of.max_pressure_GPa if of else None
+def _GPa(of, name, meaning=HALF_WIDTH):
+    """The same of a pressure in GPa."""
+    value = getattr(of, name)
     return None if value is None else (1e9 * value, "Pa", meaning)
 
 

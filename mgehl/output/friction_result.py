@@ -55,9 +55,9 @@ class FrictionResult:
     per_metre: bool = False
     """Whether forces and power are those of a metre: of a line contact."""
     coefficient_band: float | None = None
-    """Half-width of its band, of rough bodies: by the coarser grid, at the least by solids' load."""
+    """Half-width of its band: by the coarser grid, of rough bodies at the least by solids' load."""
     is_the_grids: bool = False
-    """Whether the load on solids is the grid's, and so is the coefficient."""
+    """Whether the coarser grid has another coefficient, or load on solids: then there is no band."""
     moment_1_Nm: float | None = None
     """Of the force on body 1 about its axis, positive as its surface moves along the motion; None: flat."""
     moment_2_Nm: float | None = None
@@ -132,14 +132,14 @@ def _temperatures(problem, state, rise):
     return Temperatures(*largest, by_pressure, grid.max(film))
 
 
-def banded(friction, mixed, boundary_coefficient):
-    """A `FrictionResult` with the band that the grids of a `MixedResult` give it."""
-    error = mixed and mixed.error
-    if not (friction and friction.slide_to_roll and error):
+def banded(friction, error, boundary_coefficient):
+    """A `FrictionResult` with the band that the grids of a `GapError` give it."""
+    if not (friction and friction.slide_to_roll):
         return friction
-    share = error.solid_load_fraction
-    band = None if share is None else max(boundary_coefficient * share, error.friction or 0.0)
-    return replace(friction, coefficient_band=band, is_the_grids=error.is_the_grids("solid_load_fraction"))
+    share, own, band = error.solid_load_fraction, error.friction, None
+    if share is not None and own is not None:
+        band = max(boundary_coefficient * share, own)
+    return replace(friction, coefficient_band=band, is_the_grids=error.mean_nm is not None and band is None)
 
 
 def banded_in_time(friction, half_width):
@@ -196,7 +196,7 @@ def friction_lines(friction, verbose):
     if friction.temperatures:
         yield _temperature_words(friction.temperatures)
     if friction.is_the_grids:
-        yield "friction is the grid's, as the load on solids is"
+        yield "friction is the grid's: on the next coarser one it is another, or the load on solids is"
 
 
 def coefficient_words(friction):

@@ -1,4 +1,4 @@
-"""The bands about mean gaps, largest pressure and loads of a rough contact (`mixed.error` of a result)."""
+"""The bands about mean gaps, largest pressure and loads: of a rough contact `mixed.error` of a result."""
 
 from dataclasses import dataclass, replace
 
@@ -53,7 +53,7 @@ class GapError:
     contact_load_share: float | None = None
     solid_load_fraction: float | None = None
     friction: float | None = None
-    """Of the coefficient; None of bodies that do not slide."""
+    """Of the coefficient; None also of bodies that do not slide."""
 
     def is_the_grids(self, name):
         """Whether a number of `SHOWN` has no band though the mean gap has one; not of older results."""
@@ -94,6 +94,14 @@ def gap_error(result, beside, progress):
     return replace(from_grids(grids), grids=grids, convolutions=progress.convolutions - before)
 
 
+def of_films(error, beside):
+    """The `GapError` of smooth bodies whose films have a `FilmError`, by what was solved `Beside` them: of
+    their largest pressure and friction, for solids carry nothing (collective)."""
+    if error.central_nm is None:
+        return no_band(error.how)
+    return replace(from_grids(beside.of_films()), solid_load_fraction=0.0)
+
+
 def from_grids(grids):
     """The `GapError` that the finest grid and the next coarser one tell."""
     if len(grids) == 1:
@@ -114,7 +122,10 @@ def from_grids(grids):
         )
     pressure = finest.pressure_crest_GPa
     pressure += half_width(*on_both("max_pressure_GPa"), coarser.pressure_apart_GPa)
-    slides = None not in on_both("friction")
+    friction = None
+    if None not in on_both("friction"):
+        found = half_width(*on_both("friction"), coarser.friction_apart, True)
+        friction = unless_wider(found, WIDEST * abs(finest.friction))
     return GapError(
         mean,
         unless_wider(loaded, WIDEST * finest.loaded_nm),
@@ -122,7 +133,7 @@ def from_grids(grids):
         max_pressure_GPa=unless_wider(pressure, WIDEST * finest.max_pressure_GPa),
         contact_load_share=share_half_width(*on_both("contact_load_share"), coarser.contact_load_apart),
         solid_load_fraction=share_half_width(*on_both("solid_load_fraction"), coarser.solid_load_apart),
-        friction=half_width(*on_both("friction"), coarser.friction_apart, True) if slides else None,
+        friction=friction,
     )
 
 

@@ -38,7 +38,7 @@ QUANTITIES = {
         "flash_1_K": ("friction.temperatures.largest_1", "K", "surface of body 1"),
         "flash_2_K": ("friction.temperatures.largest_2", "K", "surface of body 2"),
         "film_K": ("friction.temperatures.film", "K", "film, on average"),
-        "max_pressure_GPa": ("max_pressure_GPa", "GPa", "largest pressure", "mixed.error.max_pressure_GPa"),
+        "max_pressure_GPa": ("max_pressure_GPa", "GPa", "largest pressure", "max_pressure_band_GPa"),
         "lambda_ratio": ("mixed.lambda_ratio", "1", "film of smooth bodies over Sq"),
         "convolutions": ("work.convolutions", "1", "fine-grid convolutions"),
     }.items()

@@ -138,6 +138,8 @@ class Result:
 
     # Of a loaded contact.
     max_pressure_GPa: float = None
+    max_pressure_band_GPa: float = None
+    """Half-width of the band about the largest pressure; None where there is none."""
     pressure_crest: float = None
     """By how much the pressure may be larger between nodes, over the largest; None without a fluid."""
     load_error: float = None

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 from itertools import pairwise
 from pathlib import Path
 
@@ -36,6 +37,9 @@ COLUMNS = {
     "minimum ± nm": ("error.minimum_nm", ".4g"),
     "H_Moes central": ("moes_film.central", ".5f"),
     "H_Moes minimum": ("moes_film.minimum", ".5f"),
+    "largest pressure GPa": ("max_pressure_GPa", ".5g"),
+    "largest pressure ± GPa": ("max_pressure_band_GPa", ".2g"),
+    "approach um": ("approach_um", ".6g"),
     "residual": ("residual", ".1e"),
     "load error": ("load_error", ".1e"),
     "load on contact": ("contact.load_fraction", ".4f"),
@@ -61,6 +65,9 @@ COLUMNS = {
     "convolutions": ("work.convolutions", ".1f"),
 }
 """What each column shows: where it is in result.json, and its format or a function."""
+
+UNIT = re.compile("( nm| GPa|)$")
+"""What stands behind the ± of a column of half-widths."""
 
 WIDTH = 120
 """Columns of a table where the width of the terminal is not known."""
@@ -117,10 +124,10 @@ def _work(finest, nodes):
 
 
 def with_bands(rows):
-    """The rows of `collect` as shown: films and gaps with their bands and no more digits than those."""
+    """The rows of `collect` as shown: numbers with their bands and no more digits than those."""
 
     def shown(row, name):
-        band = row.get(name.replace(" nm", " ± nm")) if name.endswith(" nm") else ""
+        band = row.get(UNIT.sub(r" ±\1", name, count=1))
         return with_band(float(row[name]), float(band)) if band else row[name]
 
     return [{name: shown(row, name) for name in row if "±" not in name} for row in rows]

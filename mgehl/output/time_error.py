@@ -86,7 +86,10 @@ def with_bands(result, contact, error):
     """The `Result` of a run in time with a `TimeError`; the state at its end has bands by it."""
     films, gaps = _of_films(result, contact, error), _of_gaps(error)
     mixed = result.mixed and replace(result.mixed, error=gaps)
-    return replace(result, time=replace(result.time, error=error), error=films, mixed=mixed)
+    return replace(
+        result, time=replace(result.time, error=error), error=films, mixed=mixed,
+        max_pressure_band_GPa=gaps.max_pressure_GPa,
+    )  # fmt: skip
 
 
 def _of_films(result, contact, error):

@@ -258,10 +258,8 @@ def band_words(error):
 
 
 def largest_pressure_words(result):
-    """The largest pressure of a `Result` with its band, which that of rough bodies may have; else whether
-    the grid holds it."""
-    error = result.mixed and result.mixed.error
-    band = error and error.max_pressure_GPa
+    """The largest pressure of a `Result` with its band; else whether the grid holds it."""
+    band = result.max_pressure_band_GPa
     is_narrow = band is None and (result.pressure_crest or 0.0) > NARROW
     spike = f" ({SPIKE}: the grid's)" if is_narrow else ""
     return f"{pressure_words(result.max_pressure_GPa, band)}{spike}"

@@ -57,6 +57,16 @@ class Beside:
                 break
         return tuple(found)
 
+    def of_films(self):
+        """The same as `gaps` of smooth bodies whose `films` are known; of the finest grid alone where
+        those of the next coarser one were by another scheme."""
+        found, level = [grid_gap(self.problem, self._state, True)], len(self._hierarchy.grids) - 2
+        problem, outcome = self._solved.get(level, (None, None))
+        if problem and problem.scheme == self.problem.scheme:
+            there = _at_nodes(self._hierarchy.transfers[level], self._state)
+            found.append(grid_gap(problem, outcome.state, outcome.converged, there))
+        return tuple(found)
+
     def gaps(self):
         """A tuple of `GridGap`, of the finest grid and of the next coarser one, if any (collective)."""
         problem, state, level = self.problem, self._state, len(self._hierarchy.grids) - 2

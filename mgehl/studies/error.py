@@ -1,4 +1,5 @@
-"""Whether the bands about films hold the limit: point contacts drawn at random, each beside a finer grid.
+"""Whether the bands about films, largest pressure and friction hold the limit: point contacts drawn at
+random, each beside a finer grid.
 
 The limit is Richardson's, from the two finest grids. None of the contacts was known when the rules of the
 bands were made.
@@ -23,6 +24,13 @@ LOADS, MATERIALS = (10.0, 2000.0), (2.0, 14.0)
 RATIOS, LAWS = (0.5, 1.0, 1.0, 2.0, 4.0), ("barus", "roelands")
 """What contacts are drawn from: M by its logarithm, L, R_y/R_x and viscosity laws."""
 
+SLIDES = 0.02
+"""Slide-to-roll ratio: Newtonian friction, which does not thin the film."""
+
+PRESSURE, FRICTION = "largest pressure", "friction"
+UNITS = dict.fromkeys(FILMS, " nm") | {PRESSURE: " GPa", FRICTION: ""}
+"""What has a band: its unit as a table has it."""
+
 DOMAINS = (
     (40.0, {"x": [-6.0, 3.0], "y": [-4.5, 4.5]}),
     (300.0, {"x": [-3.5, 1.5], "y": [-2.5, 2.5]}),
@@ -36,19 +44,19 @@ def run(study):
     nodes = study.asked.nodes or NODES
     contacts = study.drawn(draw, CASES, SEED)
     study.expected = len(contacts) * (len(nodes) + 1)
-    rows, bands = [], {film: [] for film in FILMS}
+    rows, bands = [], {name: [] for name in UNITS}
     for name, contact in contacts.items():
         grids = *nodes, 2 * nodes[-1] - 1
         tables = {f"{name}, {n} nodes": merged(contact, {"grid": {"nodes": n}}) for n in grids}
         found = [each for _, each in study.solved(tables, must_converge=False)]
         if len(found) < len(grids):
             continue
-        limits = limits_of(found[-1].result.error)
+        limits = limits_of(found[-1].result.error) | _limits_of_loads(*found[-2:])
         for solution in found[:-1]:
-            own = {film: _band(film, solution.result, limits[film]) for film in FILMS}
+            own = {each: _band(each, solution.result, limits[each]) for each in UNITS}
             rows.append(_row(name, solution, own))
-            for film, band in own.items():
-                bands[film].append(band)
+            for each, band in own.items():
+                bands[each].append(band)
     study.write_table("cases", rows)
     study.write_table("bands", summary(bands))
 
@@ -65,6 +73,7 @@ def draw(cases, seed):
             "contact": {"radius_y": ratio * RADIUS},
             "lubricant": {"viscosity_law": law},
             "grid": next(domain for below, domain in DOMAINS if below > M),
+            "motion": {"slide_to_roll": SLIDES},
             "discretization": BEST,
             "solver": {"error": True},
         }
@@ -83,15 +92,32 @@ def limits_of(error):
     return limits
 
 
-def _band(film, result, limit):
-    return JudgedBand(getattr(result, f"{film}_film_nm"), getattr(result.error, f"{film}_nm"), limit)
+def _limits_of_loads(coarse, fine):
+    """The same of what else has bands, which is of the second order in the spacing."""
+    coarser, finer = (each.result for each in (coarse, fine))
+    loads = [name for name in UNITS if name not in FILMS]
+    return {name: (4.0 * _value(name, finer) - _value(name, coarser)) / 3.0 for name in loads}
+
+
+def _value(name, result):
+    """A number that has a band."""
+    if name in FILMS:
+        return getattr(result, f"{name}_film_nm")
+    return result.max_pressure_GPa if name == PRESSURE else result.friction.coefficient
+
+
+def _band(name, result, limit):
+    """The band about it, beside its limit."""
+    halves = {each: getattr(result.error, f"{each}_nm") for each in FILMS}
+    halves |= {PRESSURE: result.max_pressure_band_GPa, FRICTION: result.friction.coefficient_band}
+    return JudgedBand(_value(name, result), halves[name], limit)
 
 
 def _row(name, solution, bands):
     result = solution.result
     row = {"contact": name, "nodes": str(solution.mesh.nx), **told(result, "inlet cells")}
-    for film, band in bands.items():
-        row |= cells(film, band)
+    for each, band in bands.items():
+        row |= cells(each, band, UNITS[each])
     more = f"{100.0 * result.error.convolutions / result.work.convolutions:.0f}"
     why = "" if result.error.central_nm is not None else result.error.how
     return row | {"more work %": more, "no band": why}

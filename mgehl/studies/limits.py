@@ -65,11 +65,11 @@ class JudgedBand(NamedTuple):
         return f"{self.half_width / self.off:.2f}{'' if self.holds else ' !'}"
 
 
-def cells(name, band):
+def cells(name, band, unit=" nm"):
     """Columns of a table."""
     return {
-        f"{name} nm": with_band(band.value, band.half_width),
-        f"{name} limit nm": f"{band.limit:.4g}",
+        f"{name}{unit}": with_band(band.value, band.half_width),
+        f"{name} limit{unit}": f"{band.limit:.4g}",
         f"{name} band/error": band.over_error,
     }
 

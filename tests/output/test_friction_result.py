@@ -59,23 +59,24 @@ def test_a_law_of_another_unit_is_named(found, model, coefficient, said):
     assert sum("the law's stress is to be in Pa" in line for line in words) == said
 
 
-def mixed(band):
+def by_grids(solids, friction=1e-4):
     grids = (GridGap(129, 10.0, 9.0, 0.3, True, max_pressure_GPa=2.0),)
-    return SimpleNamespace(error=GapError(0.1, 0.1, "", grids, solid_load_fraction=band))
+    return GapError(0.1, 0.1, "", grids, solid_load_fraction=solids, friction=friction)
 
 
 def test_the_band_of_the_load_on_solids_is_friction_s(found):
-    result = banded(found(0.2), mixed(0.02), 0.1)
+    result = banded(found(0.2), by_grids(0.02), 0.1)
     assert result.coefficient_band == pytest.approx(0.002) and not result.is_the_grids
     (line,) = friction_lines(result, verbose=False)
     assert line.startswith("friction 0.06000 ± 0.002 (newtonian): film 0.05000, solids 0.01000; rolling")
 
 
-def test_where_the_load_on_solids_is_the_grid_s_so_is_friction(found):
-    result = banded(found(0.2), mixed(None), 0.1)
+@pytest.mark.parametrize("solids, friction", [(None, 1e-4), (0.02, None)])
+def test_where_the_load_on_solids_or_shear_is_the_grid_s_so_is_friction(found, solids, friction):
+    result = banded(found(0.2), by_grids(solids, friction), 0.1)
     assert result.coefficient_band is None and result.is_the_grids
     _, line, *_ = friction_lines(result, verbose=False)
-    assert line == "friction is the grid's, as the load on solids is"
+    assert line.startswith("friction is the grid's: on the next coarser one it is another")
 
 
 def test_a_run_that_slides_has_its_shear_in_report_and_files(tmp_path):

@@ -109,6 +109,7 @@ def test_friction_has_the_band_of_its_difference_to_the_coarser_grid():
     coarse = replace(grid(129), friction=0.052, friction_apart=0.01)
     assert from_grids((fine, coarse)).friction == pytest.approx(0.002 + SPREAD * 0.01)
     assert from_grids((grid(257), grid(129))).friction is None
+    assert from_grids((fine, replace(coarse, friction=0.08))).friction is None
 
 
 def test_the_band_of_a_films_friction_holds_the_next_finer_grids():
@@ -119,3 +120,18 @@ def test_the_band_of_a_films_friction_holds_the_next_finer_grids():
     assert coarse.mixed.solid_load_fraction == 0.0
     off = abs(coarse.friction.coefficient - fine.friction.coefficient)
     assert 1e-6 < off < coarse.friction.coefficient_band < 0.1 * coarse.friction.coefficient
+
+
+@pytest.mark.parametrize("couette, has_bands", [("3B", True), ("1B", False)])
+def test_a_smooth_contact_s_largest_pressure_and_friction_have_bands(couette, has_bands):
+    """By the films' coarser grid, if it was solved by the same scheme; they hold the next finer grid's."""
+    ball = {"motion": {"speed": 1.0, "slide_to_roll": 0.1}, "contact": {"load": 50.0}}
+    ball |= {"discretization": {"couette": couette}, "solver": {"error": True}}
+    grids = ({"grid": {"nodes": nodes, "x": [-3.0, 2.0], "y": [-2.5, 2.5]}} for nodes in (65, 129))
+    coarse, fine = (solved(ball, each).result for each in grids)
+    assert (coarse.max_pressure_band_GPa is not None) == has_bands
+    assert (coarse.friction.coefficient_band is not None) == has_bands
+    if has_bands:
+        assert 0.0 < abs(fine.max_pressure_GPa - coarse.max_pressure_GPa) < coarse.max_pressure_band_GPa
+        off = abs(fine.friction.coefficient - coarse.friction.coefficient)
+        assert 0.0 < off < coarse.friction.coefficient_band < 0.5 * coarse.friction.coefficient

@@ -61,16 +61,17 @@ def test_bands_are_the_differences_and_half_of_their_mean_size():
     coarse = rows(lambda k: 104.0 if k == 3 else 102.0, coarse=2)
     found = from_rows(fine, coarse, scene())
     assert found.at_the_end["mean_gap_nm"] == pytest.approx(4.0 + 0.5 * 2.5)
-    assert found.whole["mean_gap_nm"] == pytest.approx(2.5 + 0.5 * 2.5)
-    assert found.whole["friction"] == found.whole["mean_gap_nm"]
-    assert "load_on_solids" not in found.whole  # there is none on either grid
+    assert found.means["mean_gap_nm"] == pytest.approx(2.5 + 0.5 * 2.5)
+    assert found.means["friction"] == found.means["mean_gap_nm"]
+    assert "load_on_solids" not in found.means  # there is none on either grid
     assert "32 nodes in 4 steps for 8" in found.how
+    assert not found.whole  # of a speed and a load that stay
 
 
 def test_a_difference_that_changes_its_sign_tells_by_its_size():
     fine, coarse = rows(lambda k: 100.0), rows(lambda k: (98.0, 102.0, 98.0, 100.0)[k], coarse=2)
     found = from_rows(fine, coarse, scene())
-    assert found.at_the_end["mean_gap_nm"] == found.whole["mean_gap_nm"] == pytest.approx(1.5 * 1.5)
+    assert found.at_the_end["mean_gap_nm"] == found.means["mean_gap_nm"] == pytest.approx(1.5 * 1.5)
 
 
 def test_what_grids_tell_too_differently_has_no_band():
