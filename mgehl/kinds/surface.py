@@ -83,6 +83,7 @@ def check_surfaces(config, contact, mesh):
             if isinstance(surface, OwnSurface):
                 surface.check(x, y, contact.hertz.a)
             else:
+                _check_form(key, surface, contact)
                 _check_heights(key, surface, x, y, radius)
                 _check_size(key, surface, contact)
     check_ways(config, contact)
@@ -153,6 +154,15 @@ def _check_heights(key, surface, x, y, radius):
             )
 
 
+def _check_form(key, surface, contact):
+    """A profile is of a line contact."""
+    if isinstance(surface, Measured) and surface.heights.is_profile and not contact.is_line:
+        raise ConfigError(
+            f'{key}: is a profile along a line, which contact.kind = "line" takes; a point contact needs '
+            "heights over a rectangle"
+        )
+
+
 def _check_size(key, surface, contact, when=""):
     """A file that does not go on beyond its edge must cover the dry contact."""
     file = surface.surface if isinstance(surface, Moved) else surface
@@ -164,8 +174,8 @@ def _check_size(key, surface, contact, when=""):
     missing = ~surface.reaches(x, y)
     if missing.any():
         i = int(missing.argmax())
-        width, length, x, y = (1e6 * each for each in (*file.heights.size, x[i], y[i]))
+        at = f"x = {1e6 * x[i]:.4g} um" + ("" if contact.is_line else f", y = {1e6 * y[i]:.4g} um")
         raise ConfigError(
-            f"{key}: is {width:.4g} um by {length:.4g} um and {when}ends inside the contact, such as at "
-            f"x = {x:.4g} um, y = {y:.4g} um; give a larger one, or a continuation"
+            f"{key}: is {file.heights.size_words} and {when}ends inside the contact, such as at {at}; "
+            "give a larger one, or a continuation"
         )

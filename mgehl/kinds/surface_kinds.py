@@ -52,8 +52,8 @@ def absolute_path(value, directory="."):
 class SurfaceSection:
     # fmt: off
     kind: str | None = word(None, "heights by a formula", tuple(FORMULAS))
-    file: str | None = word(None, "heights from a file: .npy, .npz, text (matrix or x y z), an "
-        "instrument's format", own=absolute_path, own_name="FILE")
+    file: str | None = word(None, "heights from a file: .npy, .npz, text (matrix, x y z, or x z "
+        "of a line), an instrument's format", own=absolute_path, own_name="FILE")
     body: str = word(STILL, "the body that carries it: one that stands still, one that moves at twice "
         "motion.speed, or body_1, body_2 at speeds by motion.slide_to_roll", BODIES)
     amplitude: float | None = number(None, "of waviness half from valley to peak, of a dent its depth, of "

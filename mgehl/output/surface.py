@@ -68,11 +68,17 @@ def surface_lines(config, contact, mesh):
     yield f"           {wave}{surface_words(verdict, nodes)}{_recommended(verdict, nodes, mesh)}"
     still = "" if config.is_in_time else "; the rough body stands still, the other has 2 u"
     yield f"           a peak is positive and lowers the gap{still}"
-    if contact.is_line and contact.surface.varies_along((0.0, 1.0)):
+    if contact.is_line and any(_varies_along_y(part) for _, part in parts_of(config)):
         yield "           heights are those at y = 0, as if they were the same all along y"
     for key, part in parts_of(config):
         yield from _part_lines(key, part, contact, mesh)
     yield from (f"warning    {words}" for words in surface_doubts(config, contact))
+
+
+def _varies_along_y(surface):
+    """Whether heights vary along y, as all of a file over a rectangle may."""
+    is_profile = isinstance(surface, Measured) and surface.heights.is_profile
+    return not is_profile and surface.varies_along((0.0, 1.0))
 
 
 def surface_doubts(config, contact):
@@ -129,8 +135,9 @@ def _part_lines(key, part, contact, mesh):
     """Lines about one body's surface: its sign, its size, its tilt and its end."""
     if isinstance(part, Measured):
         heights = part.heights
-        (rows, columns), (width, length) = heights.values.shape, heights.size
-        yield f"           {key}: {columns} x {rows} points, {1e6 * width:.4g} um by {1e6 * length:.4g} um"
+        rows, columns = heights.values.shape
+        points = f"{columns}" if heights.is_profile else f"{columns} x {rows}"
+        yield f"           {key}: {points} points, {heights.size_words}"
         if heights.tilt > contact.roughness:
             yield (
                 f"           it is tilted by {1e9 * heights.tilt:.4g} nm from edge to edge: "

@@ -94,6 +94,28 @@ def test_ridges_along_the_motion_may_move(angle):
     assert not contact_from(config).surface.varies_along(contact_from(config).motion)
 
 
+def test_a_profile_is_of_a_line_contact(tmp_path):
+    """It has the heights of a file over a rectangle whose rows are alike, and is called long alone."""
+    x = np.arange(-1000, 1001, 20)
+    profile, rows = tmp_path / "z.csv", tmp_path / "z.npy"
+    heights = np.round(10.0 * np.cos(x / 30.0), 6)
+    profile.write_text("\n".join(f"{a},{b}" for a, b in zip(x, heights, strict=True)))
+    np.save(rows, np.tile(heights, (4, 1)))
+    common = {"height_unit": "nm"}
+    one = common | {"file": str(profile), "position_unit": "um"}
+    other = common | {"file": str(rows), "spacing": "20 um"}
+    checked(contact={"kind": "line"}, surface=one)
+    surfaces = (
+        contact_from(config_of(contact={"kind": "line"}, surface=each)).surface for each in (one, other)
+    )
+    at = np.linspace(-1e-4, 1e-4, 51)
+    np.testing.assert_allclose(*(surface.height(at, 0.0) for surface in surfaces), rtol=0, atol=1e-20)
+    assert "a profile along a line, which contact.kind" in refusal(checked, surface=one)
+    short = one | {"x": "950 um"}
+    said = refusal(checked, contact={"kind": "line"}, surface=short)
+    assert "is 2000 um long and ends inside the contact, such as at x = " in said and "y =" not in said
+
+
 class TestFile:
     @pytest.fixture
     def file(self, tmp_path):

@@ -175,9 +175,10 @@ def _read_instrument(path, fault):
             channel = reader.default_channel
             sizes, unit = channel.physical_sizes, channel.unit
             told = {} if sizes else {"physical_sizes": channel.nb_grid_pts}
-            if channel.dim != 2:
-                raise SurfaceFileError(path, "is a profile along a line; must be heights over a rectangle")
-            found = np.ma.asarray(reader.topography(**told).heights(), dtype=float)
+            topography = reader.topography(**told)
+            if not topography.is_uniform:
+                raise SurfaceFileError(path, "is a profile whose points are not evenly spaced")
+            found = np.ma.asarray(topography.heights(), dtype=float)
     except (SurfaceFileError, OSError):
         raise
     except CannotDetectFileFormat:
@@ -185,7 +186,8 @@ def _read_instrument(path, fault):
         raise SurfaceFileError(path, f"{fault.what}{more}") from None
     except Exception as error:  # what a damaged file raises is anybody's guess
         raise SurfaceFileError(path, f"SurfaceTopography cannot read it: {one_line(error)}") from None
-    heights = found.filled(np.nan).T
-    dx, dy = (None, None) if sizes is None else map(float, np.divide(sizes, heights.shape[::-1]))
-    unit = UNITS.get(unit) if isinstance(unit, str) else None
-    return Map(path, heights, dx, dy, unit, unit)
+    heights, unit = found.filled(np.nan).T, UNITS.get(unit) if isinstance(unit, str) else None
+    steps = [None, None] if sizes is None else [float(step) for step in np.divide(sizes, found.shape)]
+    if heights.ndim == 1:
+        return Map.of_profile(path, heights, steps[0], unit, unit)
+    return Map(path, heights, *steps, unit, unit)

@@ -46,6 +46,14 @@ class Map:
     position_unit: float | None = None
     doubt: str = ""
     """What of the file may be misread, in words."""
+    is_profile: bool = False
+    """Whether the file has one row alone, of which all are copies."""
+
+    @classmethod
+    def of_profile(cls, path, heights, dx=None, height_unit=None, position_unit=None):
+        """That of the heights along a line, (nx,): the same all along y."""
+        rows = np.tile(heights, (FEWEST, 1))
+        return cls(path, rows, dx, dx, height_unit, position_unit, is_profile=True)
 
     def error(self, what):
         """The error that says what is wrong with this file."""

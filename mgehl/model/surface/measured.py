@@ -56,6 +56,8 @@ class Heights:
     """Holes that were filled."""
     doubt: str = ""
     """As the `Map`'s."""
+    is_profile: bool = False
+    """As the `Map`'s."""
 
     @cached_property
     def farthest(self):
@@ -77,6 +79,12 @@ class Heights:
         """Distance of the outermost points along x and along y, in m."""
         ny, nx = self.values.shape
         return (nx - 1) * self.dx, (ny - 1) * self.dy
+
+    @property
+    def size_words(self):
+        """The same in words."""
+        length, width = self.size
+        return f"{1e6 * length:.4g} um" + (" long" if self.is_profile else f" by {1e6 * width:.4g} um")
 
     @property
     def tilt(self):
@@ -180,7 +188,7 @@ def _prepared(path, preparation, _changed):
         z = z - _low_pass(z, told.longest_wavelength, dx, dy, mode)
     if told.shortest_wavelength is not None:
         z = _low_pass(z, told.shortest_wavelength, dx, dy, mode)
-    return Heights(z, dx, dy, points, holes, found.doubt)
+    return Heights(z, dx, dy, points, holes, found.doubt, found.is_profile)
 
 
 def _checked_holes(found, holes):

@@ -1,4 +1,4 @@
-"""Heights from text: a matrix of heights, or x y z of a point in each line.
+"""Heights from text: a matrix of heights, or x y z of a point in each line, or x z of a profile.
 
 Headings tell units: over the columns of x, y and z, and Gwyddion's and SPIP's, which tell sizes too.
 """
@@ -40,7 +40,7 @@ def read_text(path):
     told = _told(table.headings)
     columns = table.values.shape[1]
     if columns == 2:
-        raise SurfaceFileError(path, "is a profile along a line, two columns; must be over a rectangle")
+        return _from_profile(path, table)
     is_matrix = columns != 3 or not told.keys().isdisjoint(("x", "y", "pixel"))
     found = _from_matrix(path, table) if is_matrix else _from_points(path, table)
     return _with_heading(found, told)
@@ -145,10 +145,22 @@ def _from_points(path, table):
     return Map(path, heights, dx, dy, height_unit, unit)
 
 
-def _units(heading):
+def _from_profile(path, table):
+    """The `Map` of x z of points along a line, in any order."""
+    (x, z), (unit, height_unit) = table.values.T, _units(table.heading, 2)
+    if not np.isfinite(x).all():
+        raise SurfaceFileError(path, f"line {table.lines[int(np.argmin(np.isfinite(x)))]}: x is no number")
+    order = np.argsort(x)
+    x, z = x[order], z[order]
+    if len(x) < FEWEST:
+        raise SurfaceFileError(path, f"has {len(x)} points along a line; must be at least {FEWEST}")
+    return Map.of_profile(path, z, step_along(path, "x", x, rounding(x)), height_unit, unit)
+
+
+def _units(heading, columns=3):
     """Units in m of the columns x, y and z by the words over them; None of one that tells none."""
     if heading is None:
-        return None, None, None
+        return (None,) * columns
     return tuple(
         next((UNITS[w] for w in unit_words(cell) if w in UNITS and w != cell), None) for cell in heading
     )

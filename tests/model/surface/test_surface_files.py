@@ -81,6 +81,25 @@ def test_every_format_gives_the_same_surface(tmp_path, made):
     assert between == pytest.approx(1e-7 * np.cos(2 * np.pi * 0.3 * DX / 24e-6), rel=3e-4)
 
 
+PROFILES = {
+    "x z": lambda order: "\n".join(f"{1e6 * X[i]} {1e6 * HEIGHTS[0, i]}" for i in order),
+    "x z with units": lambda order: "\n".join(
+        ["x [mm];z [nm]", *(f"{1e3 * X[i]};{1e9 * HEIGHTS[0, i]}" for i in order)]
+    ),
+}
+
+
+@pytest.mark.parametrize("text", PROFILES.values(), ids=PROFILES)
+@pytest.mark.parametrize("step", [1, -1])
+def test_a_profile_is_the_same_all_along_y(tmp_path, text, step):
+    written = write(tmp_path / "z.txt", text(range(NX)[::step]))
+    has_units = text is PROFILES["x z with units"]
+    surface = Measured(written, Preparation() if has_units else Preparation(UM, UM))
+    assert surface.heights.is_profile and surface.heights.size_words.endswith("um long")
+    for y in (0.0, 1.0, -1.0):
+        np.testing.assert_allclose(surface.height(X, y), HEIGHTS[0], rtol=0, atol=1e-16)
+
+
 class TestPlace:
     @pytest.fixture
     def path(self, tmp_path):
@@ -180,7 +199,10 @@ TEXTS = {
     "a matrix of text": ("a b c d\ne f g h\n", "has no row of numbers: line 1 is 'a b c d'"),
     "an empty cell": ("1,2,3,4\n1,,3,4\n" * 2, "2 of 16 points are holes, the first in row 2, column 2"),
     "too many holes": ("1,2,,4\n1,,,4\n" * 2, "6 of 16 points are holes; at most 25 % of all points"),
-    "a profile along a line": ("0 1\n1 2\n" * 4, "is a profile along a line, two columns"),
+    "a profile with a point twice": ("0 1\n1 2\n" * 4, "size along x is zero, or its x do not rise"),
+    "a short profile": ("0 1\n1 2\n2 1\n", "has 3 points along a line; must be at least 4"),
+    "an uneven profile": ("0 1\n1 2\n2 1\n4 1\n5 1\n", "is not equal: 2 from x = 2 to 4"),
+    "a profile without a place": ("0 1\n1 2\nnan 1\n4 1\n5 1\n", "line 3: x is no number"),
     "a short line": ("1 2 3 4\n1 2 3\n", "line 2 has 3 numbers, line 1 has 4"),
     "nan": ("\n".join(4 * ["1 2 nan 4"]), "4 of 16 points are holes, the first in row 1, column 3"),
     "too few": ("1 2 3 4\n1 2 3 4\n", "has 2 rows and 4 columns; must be at least 4 of each"),
@@ -264,6 +286,13 @@ class TestInstruments:
         found = Measured(str(tmp_path / "z.nc")).heights
         np.testing.assert_allclose(found.values, HEIGHTS, rtol=0, atol=1e-15)
         assert (found.dx, found.dy) == pytest.approx((DX, DY))
+
+    def test_a_profile(self, library, tmp_path):
+        made = library.UniformLineScan(1e9 * HEIGHTS[0], 1e9 * NX * DX, unit="nm", periodic=True)
+        made.to_netcdf(str(tmp_path / "z.nc"))
+        found = Measured(str(tmp_path / "z.nc")).heights
+        assert found.is_profile and found.dx == pytest.approx(DX)
+        np.testing.assert_allclose(found.values[2], HEIGHTS[0], rtol=0, atol=1e-15)
 
     def test_an_x3p_file(self, library, tmp_path):
         with zipfile.ZipFile(tmp_path / "z.x3p", "w") as archive:
