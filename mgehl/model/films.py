@@ -43,8 +43,8 @@ FORMULAS = {
     ),
     "moes": Formula("Moes", "rigid, soft or hard bodies, incompressible oil", "moes1992", "any", True),
     "grubin": Formula(
-        "Ertel and Grubin", "hard bodies of Hertz's shape, incompressible oil of Barus' law", "grubin1949",
-        incompressible=True,
+        "Ertel and Grubin", "hard bodies, Hertz's gap near its edge, incompressible oil of Barus' law",
+        "grubin1949", incompressible=True,
     ),
 }  # fmt: skip
 """By their names, less the film that they tell: _central, _minimum."""

@@ -39,8 +39,7 @@ class FrictionResult:
     rolling_coefficient: float
     """What drags each body against the motion, over the load: by the film in the domain."""
     rolling_beyond: float
-    """What drags up to a radius of curvature away between rigid bodies full of oil: in no force, and
-    nothing of runs in time."""
+    """What drags up to a radius of curvature away between rigid bodies full of oil: in no force."""
     force_1_N: float
     """On body 1, of speed u (1 + S/2): positive along the motion."""
     force_2_N: float

@@ -71,7 +71,10 @@ def _dry_lines(result):
     contact, hertz = result.contact, result.hertz
     largest, theirs = pressure_words(result.max_pressure_GPa), pressure_words(hertz.max_pressure_GPa)
     yield f"largest pressure {largest}, that of Hertz {theirs}"
-    yield f"approach {with_band(result.approach_um)} um, that of Hertz {with_band(hertz.approach_um)}"
+    approach = f"{with_band(result.approach_um)} um, that of Hertz {with_band(hertz.approach_um)}"
+    if result.edge.nodes_along_y is None:
+        approach += " (of a line contact it counts from a distance of a: loads cannot be compared)"
+    yield f"approach {approach}"
     yield f"contact: {_size(contact)}; {_where(contact)}; largest gap {contact.largest_gap_nm:.1e} nm"
     yield f"load error {result.load_error:.1e}, complementarity {result.complementarity_error:.1e}"
     yield _work(result)

@@ -20,7 +20,10 @@ DECADE = 10.0
 """Last over first value beyond which the values of a range are of equal ratio."""
 
 _NUMBER = r"[-+]?(?:\d+(?:\.\d+)?|\.\d+)(?:[eE][-+]?\d+)?"
-_RANGE = re.compile(rf"(?:(lin|log)\()?\s*({_NUMBER})\.\.({_NUMBER})\s*([^:()]*?)\s*:\s*(\d+)\s*\)?")
+_RANGE = re.compile(
+    rf"(?:(?P<how>lin|log)\()?\s*(?P<first>{_NUMBER})\.\.(?P<last>{_NUMBER})"
+    r"\s*(?P<unit>[^:()]*?)\s*:\s*(?P<count>\d+)\s*(?(how)\))"
+)
 _ITEM = re.compile(rf"\s*({_NUMBER})\s*(.*?)\s*")
 
 
@@ -62,7 +65,7 @@ def axis_of(config, key, values):
 def first_of(text):
     """The first value that a text names, as `--set` takes it; the text where it names none."""
     if match := _RANGE.fullmatch(text.strip()):
-        return f"{match[2]} {match[4]}".strip()
+        return f"{match['first']} {match['unit']}".strip()
     items = [_ITEM.fullmatch(item) for item in text.split(",")]
     return f"{items[0][1]} {items[0][2] or items[-1][2]}".strip() if all(items) else text
 
@@ -74,8 +77,10 @@ def _values(config, key, text):
         items = [_ITEM.fullmatch(item) for item in text.split(",")]
         if not all(items):
             raise ConfigError(f'{told}: must be as "50,100,200 N" or "50..200 N:4"')
-        unit = items[-1][2]
-        return _read(config, key, [_word(item[1], item[2] or unit) for item in items])
+        units = [item[2] for item in items]
+        if any(units[:-1]) and not all(units):
+            raise ConfigError(f"{told}: give each number its unit, or all of them one at the end")
+        return _read(config, key, [_word(item[1], item[2] or units[-1]) for item in items])
     match = _RANGE.fullmatch(text.strip())
     if not match:
         raise ConfigError(f'{told}: must be as "1e-4..1 m/s:20" or "log(1e-4..1 m/s:20)"')

@@ -148,7 +148,7 @@ def test_what_is_unusual_is_said_once(tmp_path, capsys, monkeypatch):
     [("1..5 mm/s:3", [0.001, 0.003, 0.005]), ("1e-4..1 m/s:5", [1e-4, 1e-3, 1e-2, 0.1, 1.0]),
      ("1..0.01 m/s:3", [1.0, 0.1, 0.01]), ("log(1..4 m/s:3)", [1.0, 2.0, 4.0]),
      ("lin(1..101 m/s:3)", [1.0, 51.0, 101.0]), ("50,100,200 mm/s", [0.05, 0.1, 0.2]),
-     ("1,2 mm/s,3", [1.0, 0.002, 3.0])],
+     ("1 m/s,2 mm/s", [1.0, 0.002]), ("1,2", [1.0, 2.0])],
 )  # fmt: skip
 def test_ranges_and_lists(text, values):
     assert axis_of(load_config(), "motion.speed", text).values == pytest.approx(values)
@@ -180,6 +180,10 @@ def test_several_keys_are_a_snake_there_and_back():
         (["motion.speed=1..2 m/s"], "must be as"),
         (["motion.speed=fast,slow"], "must be as"),
         (["motion.speed=1..2 kg:3"], "wrong unit"),
+        (["motion.speed=1,2 mm/s,3"], "give each number its unit, or all of them one at the end"),
+        (["motion.speed=1,2 m/s,3 mm/s"], "give each number its unit"),
+        (["motion.speed=log(1..2 m/s:3"], "must be as"),
+        (["motion.speed=1..2 m/s:3)"], "must be as"),
         (["motion.speed=1e-30..1 m/s:3"], "must be a number in m/s"),
         (["motion.speed=1"], "fewer than two"),
         (["motion.speed=1,1"], "same value twice"),
