@@ -39,6 +39,16 @@ def test_films_that_agree_by_chance_do_not_make_a_band_of_nothing():
     assert band_of_smallest(10.0, [10.0, 10.0], 0.0, 2).half_width > 0.0
 
 
+@pytest.mark.parametrize("order, believed", [(0.5, 1.0), (1.0, 1.0), (1.5, 1.5), (2.0, 2.0), (2.5, 2.0)])
+def test_of_the_smallest_gap_a_low_observed_order_makes_the_error_larger(order, believed):
+    """Shear that thins the oil left 1.2 of 2 about line contacts, whose bands were too narrow."""
+    last = 0.1
+    values = [10.0, 10.0 - last, 10.0 - last - last * 2.0**order]
+    found = band_of_smallest(10.0, values, 0.0, 2)
+    assert found.observed_order == pytest.approx(order)
+    assert found.half_width == pytest.approx(last / (2.0**believed - 1.0))
+
+
 def test_the_safety_of_the_smallest_gap_is_the_spread_of_the_difference():
     """Errors of 0.4, of second order, that differ by 0.3 from node to node."""
     films = values(30.0, 2, 0.4, 3)
