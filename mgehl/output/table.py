@@ -66,6 +66,9 @@ COLUMNS = {
 }
 """What each column shows: where it is in result.json, and its format or a function."""
 
+SLIDING = "friction", "friction of film", "friction of solids"
+"""Columns of bodies whose sliding is known: where it is not given their 0 is no answer."""
+
 UNIT = re.compile("( nm| GPa|)$")
 """What stands behind the ± of a column of half-widths."""
 
@@ -98,6 +101,8 @@ def _row(directory, keys):
             row[name] = shape(found) if callable(shape) else "" if found is None else format(found, shape)
     if told.value("contact.kind") == "line":
         row.pop("approach um", None)  # it counts from a distance of a: loads cannot be compared
+    if told.value("motion.slide_to_roll") is None:
+        row |= {name: "" for name in SLIDING if name in row}
     if told.lambda_ratio is not None:
         row["lambda"] = format(told.lambda_ratio, ".4g")
     history = csv.DictReader(texts["history.csv"].splitlines())

@@ -4,6 +4,7 @@ The path is a snake: from one point to the next a single key changes, by one val
 """
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import prod
 
@@ -54,6 +55,7 @@ def axis_of(config, key, values):
         raise ConfigError(f"--over {key}: cannot be swept: only keys with a number can")
     if key.startswith("time."):
         raise ConfigError(f"--over {key}: cannot be swept: [time] tells of one run")
+    values = values if isinstance(values, Iterable) else [values]
     found = _values(config, key, values) if isinstance(values, str) else _read(config, key, values)
     if len(found) < 2:
         raise ConfigError(f"--over {key}: has fewer than two values")

@@ -13,7 +13,7 @@ import mgehl
 import mgehl.run as run_module
 from mgehl.cli import main
 from mgehl.config import load_config
-from mgehl.errors import UserError
+from mgehl.errors import ConfigError, UserError
 from mgehl.studies import study
 from mgehl.studies.points import axis_of, points_of
 
@@ -152,6 +152,11 @@ def test_what_is_unusual_is_said_once(tmp_path, capsys, monkeypatch):
 )  # fmt: skip
 def test_ranges_and_lists(text, values):
     assert axis_of(load_config(), "motion.speed", text).values == pytest.approx(values)
+
+
+def test_one_value_is_no_sweep():
+    with pytest.raises(ConfigError, match="fewer than two values"):
+        axis_of(load_config(), "motion.speed", 0.1)
 
 
 @pytest.mark.parametrize("quote", "\"'")

@@ -39,14 +39,20 @@ def test_films_that_agree_by_chance_do_not_make_a_band_of_nothing():
     assert band_of_smallest(10.0, [10.0, 10.0], 0.0, 2).half_width > 0.0
 
 
+def found_by(order, last):
+    """Films of three grids whose differences fall by the order to the `last` one."""
+    return [10.0, 10.0 - last, 10.0 - last - last * 2.0**order]
+
+
 @pytest.mark.parametrize("order, believed", [(0.5, 1.0), (1.0, 1.0), (1.5, 1.5), (2.0, 2.0), (2.5, 2.0)])
 def test_of_the_smallest_gap_a_low_observed_order_makes_the_error_larger(order, believed):
     """Shear that thins the oil left 1.2 of 2 about line contacts, whose bands were too narrow."""
     last = 0.1
-    values = [10.0, 10.0 - last, 10.0 - last - last * 2.0**order]
-    found = band_of_smallest(10.0, values, 0.0, 2)
+    found = band_of_smallest(10.0, found_by(order, last), 0.0, 2)
     assert found.observed_order == pytest.approx(order)
     assert found.half_width == pytest.approx(last / (2.0**believed - 1.0))
+    by_chance = band_of_smallest(10.0, found_by(order, last), 2.0 * last, 2).half_width
+    assert by_chance == pytest.approx(last / 3.0 + SPREADS * 2.0 * last / 3.0)
 
 
 def test_the_safety_of_the_smallest_gap_is_the_spread_of_the_difference():
