@@ -56,7 +56,8 @@ class FrictionResult:
     coefficient_band: float | None = None
     """Half-width of its band: by the coarser grid, of rough bodies at the least by solids' load."""
     is_the_grids: bool = False
-    """Whether the coarser grid has another coefficient, or load on solids: then there is no band."""
+    """Whether the coarser grid has another coefficient, or load on solids, or a spike of pressure decides
+    on it: then there is no band."""
     moment_1_Nm: float | None = None
     """Of the force on body 1 about its axis, positive as its surface moves along the motion; None: flat."""
     moment_2_Nm: float | None = None
@@ -195,7 +196,7 @@ def friction_lines(friction, verbose):
     if friction.temperatures:
         yield _temperature_words(friction.temperatures)
     if friction.is_the_grids:
-        yield "friction is the grid's: on the next coarser one it is another, or the load on solids is"
+        yield "friction is the grid's: on another one it is another"
 
 
 def coefficient_words(friction):

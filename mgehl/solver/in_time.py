@@ -23,25 +23,25 @@ def march(scene, task, told, start=None, pace=None):
     """Run a `Scene` in time on the finest grid; return its `ContactProblem` and its `Outcome`.
 
     The `Task` is that of the scene's contact. From `start`, a `Solution` and the `Frame` here, or from the
-    steady state of its beginning. `told` is called after each step, as `March` says, the monitor for each
-    cycle on the way to the beginning. Without a `pace` steps are as long as `Pace` says.
+    steady state of its beginning; where no heights move that state is found for its `Reference`, too.
+    `told` is called after each step, as `March` says, the monitor for each cycle on the way to the
+    beginning. Without a `pace` steps are as long as `Pace` says.
     """
-    reference, begins, path = None, None, (0.0, 0.0)
-    recipe = recipe_in_time(task.settings, task.contact)
+    recipe, path = recipe_in_time(task.settings, task.contact), start[0].path if start else (0.0, 0.0)
     problem = task.but(scheme=recipe.scheme).problem()
-    if start:
-        path = start[0].path
-        problem.turn_to(scene.at(path), scene.instant(scene.framed, 0.0), scene.sense(0.0))
-        state = begun_in_time(problem, *start)
-    else:
-        beginning = _at_rest if scene.speed.value(0.0) == 0.0 else _steady
-        steady, first = beginning(scene, task)
-        if not first.converged:
+    rests, reference, begins = scene.speed.value(0.0) == 0.0, None, None
+    stays = not rests and not scene.moves
+    if stays or not start:
+        steady, first = (_at_rest if rests else _steady)(scene, task)
+        if not first.converged and not start:
             first.reason = f"the steady state that time begins with: {first.reason}"
             return problem, first
+        if first.converged and stays:
+            reference = Reference.of(steady, first.state)
         state, begins = first.state, first.begins
-        if beginning is _steady and not scene.moves:
-            reference = Reference.of(steady, state)
+    if start:
+        problem.turn_to(scene.at(path), scene.instant(scene.framed, 0.0), scene.sense(0.0))
+        state, begins = begun_in_time(problem, *start), None
     with newton_on(task.hierarchy, problem, recipe) as newton:
         marching = March(scene, problem, newton, task.settings.time, told, pace)
         outcome = marching.run(state, path, reference, task.journal)

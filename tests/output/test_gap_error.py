@@ -125,7 +125,7 @@ def test_the_band_of_a_films_friction_holds_the_next_finer_grids():
 @pytest.mark.parametrize("couette, has_bands", [("3B", True), ("1B", False)])
 def test_a_smooth_contact_s_largest_pressure_and_friction_have_bands(couette, has_bands):
     """By the films' coarser grid, if it was solved by the same scheme; they hold the next finer grid's."""
-    ball = {"motion": {"speed": 1.0, "slide_to_roll": 0.1}, "contact": {"load": 50.0}}
+    ball = {"motion": {"speed": 0.2, "slide_to_roll": 0.1}, "contact": {"load": 200.0}}
     ball |= {"discretization": {"couette": couette}, "solver": {"error": True}}
     grids = ({"grid": {"nodes": nodes, "x": [-3.0, 2.0], "y": [-2.5, 2.5]}} for nodes in (65, 129))
     coarse, fine = (solved(ball, each).result for each in grids)
@@ -135,3 +135,12 @@ def test_a_smooth_contact_s_largest_pressure_and_friction_have_bands(couette, ha
         assert 0.0 < abs(fine.max_pressure_GPa - coarse.max_pressure_GPa) < coarse.max_pressure_band_GPa
         off = abs(fine.friction.coefficient - coarse.friction.coefficient)
         assert 0.0 < off < coarse.friction.coefficient_band < 0.5 * coarse.friction.coefficient
+
+
+def test_a_spike_that_three_nodes_do_not_hold_leaves_a_smooth_contact_without_them():
+    spiky = {"motion": {"speed": 1.0, "slide_to_roll": 0.1}, "contact": {"load": 50.0}}
+    grid = {"grid": {"nodes": 65, "x": [-3.0, 2.0], "y": [-2.5, 2.5]}, "solver": {"error": True}}
+    result = solved(spiky, grid, {"discretization": {"couette": "3B"}}).result
+    assert result.max_pressure_band_GPa is result.friction.coefficient_band is None
+    assert result.error.central_nm and result.friction.is_the_grids
+    assert "a spike that three nodes do not hold" in str(result)
