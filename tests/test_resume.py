@@ -275,6 +275,22 @@ class TestStartFrom:
         np.testing.assert_array_equal(parted.fields.H, whole.fields.H)
         assert len(parted.rows) == len(whole.rows)
 
+    def test_files_that_the_other_run_read_are_kept_with_it(self, tmp_path, monkeypatch):
+        """A table of speed of its own was looked for among those of the run that started from it."""
+        monkeypatch.chdir(tmp_path)
+        for name, speed in (("first", 0.5), ("then", 0.51)):
+            (tmp_path / f"{name}.csv").write_text(f"0,{speed}\n1,{speed}\n")
+        in_time = ["--set", "time.end=1e-5", "--no-error"]
+        assert exit_status(*SMALL, *in_time, "--set", "motion.speed=first.csv", "--out", "before") == 0
+        starting = [*SMALL, *in_time, "--set", "motion.speed=then.csv", "--start-from", "before"]
+        assert exit_status(*starting, "--out", "after") == 0
+        assert exit_status(*starting, "--out", "parted", "--time-limit", "1e-9") == 143
+        shutil.rmtree("before")
+        (tmp_path / "first.csv").unlink()
+        assert exit_status("--resume", "parted") == 0
+        np.testing.assert_array_equal(read_run("parted").fields.H, read_run("after").fields.H)
+        assert names_in(tmp_path / "parted") == names_in(tmp_path / "after")
+
     @pytest.mark.parametrize(
         "arguments, part",
         [

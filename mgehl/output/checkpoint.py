@@ -2,6 +2,7 @@
 
 RUN/checkpoint/
     begun.npz             what is solved: configuration, own laws, the run that this one was started from
+    start/laws/           own laws of that run, while this one goes on
     solve-0000.npz, ...   finished solves, in order: a grid of the nested iteration each, or a step in speed
     under-way.npz         where the next one stands, saved every so many seconds
     frame-000000.npz, ... fields of instants that are kept of a run in time
@@ -22,7 +23,7 @@ import numpy as np
 from mgehl.errors import OutputError, one_line
 from mgehl.output.archive import save, unpacked
 from mgehl.output.files import CHECKPOINT, FIELDS, on_first_rank
-from mgehl.output.laws import is_law, law_files, laws_of, portable
+from mgehl.output.laws import is_law, law_files, laws_beside, laws_of, portable
 from mgehl.output.whole_file import writing
 from mgehl.solver.journal import Journal, told_to_stop
 from mgehl.solver.record import Record
@@ -31,9 +32,10 @@ from mgehl.version import VERSION
 BEGUN, UNDER_WAY = "begun.npz", "under-way.npz"
 
 START = "start"
-"""In begun.npz the bytes of the fields.h5 of the run that this one was started from."""
+"""In begun.npz the bytes of the fields.h5 of the run that this one was started from; before the names of
+its laws."""
 
-FORMAT = 13
+FORMAT = 14
 """Version of the files, up with every change of layout or name; those of another are not read."""
 
 
@@ -49,6 +51,8 @@ class Begun:
     """{laws/NAME: where that file was, counted from the run's directory}."""
     start: bytes | None
     """The fields.h5 of the run that it was started from."""
+    start_laws: dict
+    """Laws of that run, as `laws`."""
 
 
 def begin_run(directory, config, start=None):
@@ -58,11 +62,17 @@ def begin_run(directory, config, start=None):
     if is_begun(directory):
         return
     with writing(directory):
-        kept = laws_of(config) | ({START: (Path(start) / FIELDS).read_bytes()} if start else {})
+        kept = laws_of(config) | (_start(Path(start)) if start else {})
     origins = {name: os.path.relpath(file, directory) for file, name in law_files(config).items()}
     arrays = {str(number): np.frombuffer(each, np.uint8) for number, each in enumerate(kept.values())}
     record = _head(portable(config)) | {"names": list(kept), "origins": origins}
     save(Path(directory) / CHECKPOINT / BEGUN, record, arrays)
+
+
+def _start(directory):
+    """{name: bytes} of what is kept of the run in a directory that another one starts from."""
+    laws = {f"{START}/{name}": content for name, content in laws_beside(directory).items()}
+    return {START: (directory / FIELDS).read_bytes()} | laws
 
 
 def read_begun(directory):
@@ -73,10 +83,14 @@ def read_begun(directory):
     record, arrays = found
     try:
         laws = {name: arrays[str(number)].tobytes() for number, name in enumerate(record["names"])}
-        start = laws.pop(START, None)
-        if not all(map(is_law, laws)):
+        start, of_start = laws.pop(START, None), f"{START}/"
+        theirs = {
+            name.removeprefix(of_start): laws.pop(name) for name in [*laws] if name.startswith(of_start)
+        }
+        if not all(map(is_law, [*laws, *theirs])):
             raise ValueError("it names files elsewhere")
-        return Begun(record["configuration"], laws, {name: record["origins"][name] for name in laws}, start)
+        origins = {name: record["origins"][name] for name in laws}
+        return Begun(record["configuration"], laws, origins, start, theirs)
     except (KeyError, TypeError, ValueError) as error:
         raise OutputError(damaged(path, error)) from None
 

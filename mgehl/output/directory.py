@@ -14,7 +14,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from mgehl.errors import OutputError
-from mgehl.output.checkpoint import BEGUN, read_begun
+from mgehl.output.checkpoint import BEGUN, START, read_begun
 from mgehl.output.files import CHECKPOINT, FIELDS, NAMES, PLOTS, REPORT, SERIES, STUDY
 from mgehl.output.laws import FOLDER as LAWS
 from mgehl.output.stored import files_of
@@ -74,15 +74,17 @@ def clear_checkpoint(directory):
     folder = Path(directory) / CHECKPOINT
     if not is_folder(folder):
         return
-    stage, laws = folder / FINISHED, ()
+    stage, start, laws, theirs = folder / FINISHED, folder / START, (), ()
     with suppress(OutputError, AttributeError):  # damaged, or not there
-        laws = read_begun(directory).laws
-    own = [stage / name for name in (*NAMES, *laws)] + [folder / name for name in laws] + _own_files(folder)
+        begun = read_begun(directory)
+        laws, theirs = begun.laws, begun.start_laws
+    own = [stage / name for name in (*NAMES, *laws)] + [start / name for name in theirs]
+    own += [folder / name for name in laws] + _own_files(folder)
     with suppress(OSError):  # what stays is not read
         clear_parts(folder)
         clear_parts(stage)
         remove_plain((*own, folder / BEGUN))  # last the one that says that they are mgehl's
-    for each in (stage / LAWS, stage, folder / LAWS, folder):
+    for each in (stage / LAWS, stage, start / LAWS, start, folder / LAWS, folder):
         with suppress(OSError):  # not there, or somebody else's, too
             each.rmdir()
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mgehl.errors import one_line
-from mgehl.output.checkpoint import read_begun
+from mgehl.output.checkpoint import START, read_begun
 from mgehl.output.directory import FINISHED, clear_checkpoint, made_before, publish
 from mgehl.output.files import (
     CHECKPOINT,
@@ -92,6 +92,8 @@ def taken_up(directory):
     if begun is None:
         read_texts(directory)
         return None, None, []
+    folder = Path(directory) / CHECKPOINT
     with writing(directory):
-        config, said = as_they_were(begun, Path(directory) / CHECKPOINT, directory)
-    return config, begun.start and start_from(begun.start, directory), said
+        config, said = as_they_were(begun, folder, directory)
+        put_laws(folder / START, begun.start_laws)
+    return config, begun.start and start_from(begun.start, folder / START), said

@@ -30,6 +30,13 @@ def laws_of(config):
     return {name: Path(file).read_bytes() for file, name in law_files(config).items()}
 
 
+def laws_beside(directory):
+    """{laws/NAME: bytes} of the laws that the run in a directory has. Raises OSError."""
+    folder = Path(directory) / FOLDER
+    files = sorted(filter(is_plain, folder.iterdir())) if folder.is_dir() else ()
+    return {f"{FOLDER}/{file.name}": file.read_bytes() for file in files}
+
+
 def portable(config):
     """The tables of a `Config` as they stand in a run directory: own functions in laws/."""
     return _moved(config.as_toml_tables(), law_files(config))

@@ -68,7 +68,7 @@ def read_run(directory) -> Solution:
 
 
 def start_from(content, directory) -> Solution:
-    """The same from the bytes of a fields.h5 that a checkpoint in the directory kept."""
+    """The same from the bytes of a fields.h5 that a checkpoint kept, whose laws lie in the directory."""
     return _read(directory, _solution, BytesIO(content))
 
 
