@@ -2,7 +2,7 @@ from mpi4py import MPI
 from told import rows_of
 
 from mgehl.output.study_directory import StudyRecord
-from mgehl.studies import error
+from mgehl.studies import error, passages
 from mgehl.studies.study import Study
 
 
@@ -21,3 +21,18 @@ def test_films_of_a_random_contact(tmp_path):
     assert told["central"] == told["minimum"] == 2 and told["friction"] == told["largest pressure"]
     kept = [row["largest pressure limit GPa"] for row in rows if "±" in row["largest pressure GPa"]]
     assert told["largest pressure"] == len(kept)
+
+
+def test_bands_of_a_random_run_in_time(tmp_path, monkeypatch):
+    monkeypatch.setattr(passages, "COURSES", {})
+    monkeypatch.setattr(passages, "LASTS", 1.01)
+    asked = StudyRecord("passages", (65,), 1, {}, cases=1, seed=5)
+    passages.run(Study(tmp_path, MPI.COMM_SELF, asked, speak=False))
+    rows, bands = rows_of(tmp_path / "passages.csv"), rows_of(tmp_path / "passages-bands.csv")
+    assert {row["case"] for row in rows} == set(passages.draw(1, 5)) < set(passages.draw(2, 5))
+    names = [row["of"] for row in rows]
+    assert names == [row["of"] for row in bands] and "mean_gap_nm of a passage" in names
+    for row in rows:
+        value, half_width = map(float, row["value"].split(" ± "))
+        off = abs(float(row["limit"]) - value)
+        assert row["band/error"].endswith("!") == (off > half_width)
