@@ -18,7 +18,7 @@ from mgehl.solver.pace import JUST
 
 PRESSURE = "max_pressure_GPa"
 """Column that has no band, nor has friction, where a spike that three nodes do not hold may be the largest:
-12 of 16 bands that were too narrow stood there."""
+14 of 16 bands that were too narrow stood there."""
 
 SHARES = "load_on_contact", "load_on_solids"
 """Columns that are parts of the load."""
