@@ -70,7 +70,7 @@ def _tries(solution):
 
 def _of_domain(solution):
     """A domain that cuts the contact: that of "auto", or a larger one where that has no more room. Of very
-    wide ellipses coarse cells alone may look so: the pressure beside the boundary falls with the cell."""
+    wide ellipses "auto" has more room on more nodes."""
     edge, config = solution.result.edge, solution.config
     if not edge.cuts:
         if edge.too_few:
@@ -85,7 +85,7 @@ def _of_domain(solution):
         keys = " and ".join(f'grid.{name} = "auto"' for name in names)
         yield f"{keys}: a domain that holds the contact and its inlet"
     elif not edge.overlapping and edge.pressure_ratio < 2.0 * LARGEST_EDGE_PRESSURE:
-        yield f"grid.nodes = {2 * config.grid.nodes - 1}: cells beside the boundary then have less pressure"
+        yield f'grid.nodes = {2 * config.grid.nodes - 1}: "auto" then has more room to the sides'
     else:
         larger = {name: [round(LARGER * end, 2) for end in pair] for name, pair in ends.items()}
         keys = " and ".join(f"grid.{name} = {pair}" for name, pair in larger.items())

@@ -196,7 +196,7 @@ def friction_lines(friction, verbose):
     if friction.temperatures:
         yield _temperature_words(friction.temperatures)
     if friction.is_the_grids:
-        yield "friction is the grid's: on another one it is another"
+        yield "friction is the grid's: another grid gives another coefficient"
 
 
 def coefficient_words(friction):

@@ -58,8 +58,8 @@ class Beside:
         return tuple(found)
 
     def of_films(self):
-        """The same as `gaps` of smooth bodies whose `films` are known; of the finest grid alone where
-        those of the next coarser one were by another scheme."""
+        """A tuple of `GridGap` of smooth bodies whose `films` are known: of the finest grid and the next
+        coarser one, if films there are by the same scheme (collective)."""
         found, level = [grid_gap(self.problem, self._state, True)], len(self._hierarchy.grids) - 2
         problem, outcome = self._solved.get(level, (None, None))
         if problem and problem.scheme == self.problem.scheme:
