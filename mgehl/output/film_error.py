@@ -62,7 +62,7 @@ def why_no_band(result, contact):
         return "there is solid contact: its edge moves from grid to grid by whole cells"
     if result.overlap.nodes:
         return "the bodies overlap"
-    if result.resolution.verdict == "grid-determined":
+    if result.resolution.is_the_grids:
         return "the inlet has less than a cell: the grid decides what is film"
     if result.resolution.surface == GRIDS:
         return "the surface has waves that the grid does not show"

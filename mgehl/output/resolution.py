@@ -50,6 +50,11 @@ class Resolution:
     rests: bool = False
     """Whether the surfaces come to rest, where no grid resolves the inlet."""
 
+    @property
+    def is_the_grids(self):
+        """Whether the grid decides what is film: the inlet has less than a cell."""
+        return self.verdict == "grid-determined"
+
 
 def inlet_cells(contact, mesh, scene=None):
     """Cells of a mesh in the inlet of a loaded contact; of a `Scene` the fewest of its slowest motion."""

@@ -20,6 +20,9 @@ PRESSURE = "max_pressure_GPa"
 """Column that has no band, nor has friction, where a spike that three nodes do not hold may be the largest:
 14 of 16 bands that were too narrow stood there."""
 
+OF_FILMS = "central_film_nm", "minimum_film_nm"
+"""Columns that of smooth bodies have no band where the inlet has less than a cell, as steady ones."""
+
 SHARES = "load_on_contact", "load_on_solids"
 """Columns that are parts of the load."""
 
@@ -36,7 +39,19 @@ def time_error(result, problem, scene, asked, progress, beside):
     before, (coarser, why_not) = progress.convolutions, beside()
     if why_not:
         return TimeError(why_not)
-    return replace(from_rows(progress.rows, coarser, scene), convolutions=progress.convolutions - before)
+    found = from_rows(progress.rows, coarser, scene)
+    if result.resolution.is_the_grids and not problem.contact.is_mixed:
+        found = _without_films(found)
+    return replace(found, convolutions=progress.convolutions - before)
+
+
+def _without_films(error):
+    """A `TimeError` without bands of `OF_FILMS`."""
+    parts = {name: getattr(error, name) for name in ("means", "whole", "at_the_end")}
+    left = {
+        name: {of: half for of, half in part.items() if of not in OF_FILMS} for name, part in parts.items()
+    }
+    return replace(error, **left)
 
 
 def from_rows(rows, coarser, scene):

@@ -122,6 +122,14 @@ def test_films_of_smooth_bodies_have_them_and_none_that_did_not_ask():
     assert film.error.central_nm is None and "not asked for" in film.time.error.how
 
 
+def test_films_of_an_inlet_of_less_than_a_cell_have_none_as_steady_ones():
+    slow = {"contact.load": 100.0, "motion.speed": 0.02, "time.end": 0.5 * UNIT}
+    result = mgehl.solve(mgehl.load(None, BALL | slow)).summary
+    assert result.resolution.inlet_cells < 1.0 and not result.contact.nodes
+    known = result.time.error.at_the_end
+    assert "mean_gap_nm" in known and {"central_film_nm", "minimum_film_nm"}.isdisjoint(known)
+
+
 class Told:
     """Stops a run when it is about to compare grids."""
 
