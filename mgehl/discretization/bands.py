@@ -24,10 +24,14 @@ LINES_BESIDE = 2
 """Lines on each side that a stencil couples a line to."""
 
 
-def distributive_nodes(eps, rows, dX, K00):
+def distributive_nodes(eps, rows, dX, K00, is_line=False):
     """Where corrections are distributed: contact and weak Poiseuille flow; all (lines, nx). What such a
-    node would hand to a given one is dropped: keeping it leaves modes that the band of K amplifies."""
-    stiff = eps < STIFF * K00 * dX
+    node would hand to a given one is dropped: keeping it leaves modes that the band of K amplifies.
+
+    In a line contact, whose influence falls like a logarithm, every node is one: beside stiff nodes others
+    leave such modes, too. On 4097 nodes of soft bodies they made a correction of 1e12 residuals.
+    """
+    stiff = is_line | (eps < STIFF * K00 * dX)
     return (stiff | (rows == GAP)) & (rows != PRESSURE)
 
 

@@ -48,7 +48,8 @@ class LineSmoother:
     def partition(self, rows):
         """Choose the distributive nodes."""
         grid, eps = self._jacobian.grid, self._jacobian.linearisation.eps
-        self._distributive = grid.halo(distributive_nodes(eps, rows, grid.mesh.dX, self._K00))
+        mesh = grid.mesh
+        self._distributive = grid.halo(distributive_nodes(eps, rows, mesh.dX, self._K00, mesh.is_line))
 
     @event(LINES)
     def factor(self):

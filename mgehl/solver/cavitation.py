@@ -5,7 +5,6 @@ depends on P: flow balance, P >= 0 and fillings below 1 can be solved there at t
 """
 
 import numpy as np
-from scipy.ndimage import label
 
 from mgehl.discretization.axes import own
 from mgehl.discretization.kernels import lifted_by_less, relax_cavitation
@@ -13,15 +12,6 @@ from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
 
 WEAKLY_COUPLED = 10.0
 """A node is relaxed where its mobility/dX exceeds this multiple of its influence; 3 to 100 do as well."""
-
-LONG_WAVES = 1.0
-"""Smallest mobility of a node that is relaxed in a line contact, where fluid is all along the line.
-
-On its fine grids a node hardly moves its own gap, but long waves of pressure do: one of length L changes
-Couette's flow by L and Poiseuille's by mobility/L. In a valley between contact the limit falls with the
-square of its length. Without a limit Newton's steps and the relaxation undo each other (thick films on 4097
-nodes), with 0.3 and 0.01 soft lines fail. A point contact needs none.
-"""
 
 LIFTED = 0.1
 """Where the pressure that the inflow needs would lift the gap by more than this part of it, the node is
@@ -122,15 +112,7 @@ def driven(problem, evaluation):
 
 
 def _relaxable(problem, evaluation, state):
-    """Nodes of low pressure, where neither their own pressure nor long waves of it move the gap much."""
+    """Nodes of low pressure, where that hardly moves the gap."""
     movable = weakly_coupled(problem, evaluation, state.status)
-    if problem.grid.mesh.is_line:
-        movable &= own(evaluation.fluid.eps) > LONG_WAVES * part_of_the_line(is_fluid(state.status)) ** 2
     movable &= state.P <= LOW * problem.grid.max(state.P, initial=0.0)
     return movable & driven(problem, evaluation)
-
-
-def part_of_the_line(fluid):
-    """Length over that of the line of the valley that a node of `fluid` lies in: (lines, nx)."""
-    valleys, _ = label(fluid, structure=[[0, 0, 0], [1, 1, 1], [0, 0, 0]])
-    return np.bincount(valleys.ravel())[valleys] / fluid.shape[1]

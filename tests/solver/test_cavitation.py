@@ -3,7 +3,7 @@ import pytest
 
 from mgehl.discretization.axes import HALO
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.solver.cavitation import LOW, part_of_the_line, relax_cavitation_set, weakly_coupled
+from mgehl.solver.cavitation import LOW, relax_cavitation_set, weakly_coupled
 
 
 @pytest.fixture
@@ -121,9 +121,3 @@ def test_complementarity_holds_where_it_relaxes(film, spoil):
     assert inflow[cavity].max() < 1e-3 * couette
     np.testing.assert_array_equal(state.P[~nodes], before.P[~nodes])
     np.testing.assert_array_equal(state.status[~nodes], before.status[~nodes])
-
-
-def test_a_valley_is_as_long_as_its_line_has_fluid():
-    fluid = np.array([[1, 1, 0, 1, 1, 1, 0, 0], 8 * [1]], dtype=bool)
-    eighths = [[2, 2, 0, 3, 3, 3, 0, 0], 8 * [8]]
-    assert 8 * part_of_the_line(fluid)[fluid] == pytest.approx(np.array(eighths)[fluid])
