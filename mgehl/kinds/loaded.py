@@ -237,11 +237,14 @@ def _with_bands(effort):
 def assumptions(contact):
     """What the formulas of a contact assume, a few words each; they know the oil's own viscosity."""
     contact = contact.unheated
-    bodies = "smooth bodies" if contact.deformation is None else "smooth half-spaces, not layered"
+    bodies = "smooth bodies"
+    if contact.deformation is not None:
+        known = contact.in_formulas.reduced_modulus != contact.reduced_modulus
+        bodies = f"smooth half-spaces, {'in dry contact as wide' if known else 'not layered'}"
     yield f"all: {bodies}, flooded, isothermal, Newtonian oil"
     told = {formula.label: formula for formula in map(formula_of, contact.shown_formulas)}
     yield from (f"{label}: {formula.assumes}" for label, formula in told.items())
-    if "elastic" in contact.regime and any(formula.incompressible for formula in told.values()):
+    if contact.is_flattened and any(formula.incompressible for formula in told.values()):
         # A law of the user's own may not be run again where results are read.
         own = isinstance(contact.lubricant.density_law, OwnDensity)
         ratio = "" if own else f"{contact.density_ratio:.4g}, "

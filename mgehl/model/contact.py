@@ -83,8 +83,19 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         raise NotImplementedError
 
     @property
+    def regime(self):
+        """Whether bodies and viscosity answer to the pressure, by Moes' asymptotes."""
+        return films.regime(*self.in_formulas.asymptotes)
+
+    @property
+    def is_flattened(self):
+        """Whether bodies are pressed flat, by Moes' isoviscous films: the pressure in the middle is p_h."""
+        rigid, elastic, *_ = self.in_formulas.asymptotes
+        return rigid < elastic
+
+    @property
     def formulas(self):
-        """{name: film in m} by every formula."""
+        """{name: film in m} by every formula; layered bodies are half-spaces whose contact is as wide."""
         raise NotImplementedError
 
     @property
@@ -105,7 +116,7 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         """{name: film in m} of `shown_formulas` on the terms of what is computed: the central film of
         bodies that are pressed flat is the formula's, by the density at p_h that it assumes over the oil's.
         """
-        if "elastic" not in self.regime:
+        if not self.is_flattened:
             return self.shown_formulas
         assumed_oil = replace(self.lubricant, density_law=DowsonHigginson())
         own, theirs = self.density_ratio, self._density_ratio(assumed_oil)

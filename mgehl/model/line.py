@@ -86,11 +86,6 @@ class LineContact(LoadedContact):
         return pair | {"moes": self.flooded_film, "grubin": self.grubin_film}
 
     @property
-    def regime(self):
-        """Whether bodies and viscosity answer to the pressure, by Moes' asymptotes."""
-        return films.regime(*self.asymptotes)
-
-    @property
     def asymptotes(self):
         """As of any contact."""
         return films.line_asymptotes(self.groups)

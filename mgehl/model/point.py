@@ -186,7 +186,7 @@ class PointContact(LoadedContact):
     def _inlet_of(self, film):
         """As of any contact, in units of this one's a."""
         like = self.likeness
-        return super(PointContact, like)._inlet_of(film) * self.widening * like.hertz.a / self.hertz.a
+        return super(PointContact, like)._inlet_of(film) * like.hertz.a / self.hertz.a
 
     def cell_along_motion(self, mesh):
         """|c|^3 dX + |s|^3 dY/k_e of a motion along (c, s): twice the diffusion along it of scheme 1B."""
@@ -215,7 +215,7 @@ class PointContact(LoadedContact):
     @property
     def formulas(self):
         """As of any contact; along neither axis that made for it, too."""
-        like, groups = self.aligned, self.groups
+        like, groups = self.in_formulas, self.in_formulas.groups
         radii, ellipse = (like.radius_x, like.radius_y), (like.radius_x, 1.0 / like.k_e)
         return {
             **films.both("hamrock_dowson", films.hamrock_dowson(groups, *ellipse)),
@@ -231,15 +231,10 @@ class PointContact(LoadedContact):
         return super(PointContact, self.aligned).moes_scale
 
     @property
-    def regime(self):
-        """Whether bodies and viscosity answer to the pressure, by Moes' asymptotes."""
-        like = self.in_formulas
-        return films.regime(*films.point_asymptotes(like.groups, like.radius_x / like.radius_y))
-
-    @property
     def in_formulas(self):
         """As of any contact; a deformation of the user's own counts as none."""
-        return self.aligned if isinstance(self.deformation, OwnCompliance) else self.likeness
+        own = isinstance(self.deformation, OwnCompliance)
+        return replace(self.aligned, deformation=None) if own else self.likeness
 
     @property
     def _piezoviscous_film(self):

@@ -59,6 +59,15 @@ def test_central_films_of_formulas_are_those_of_this_oil_s_density():
     assert compressed.compared["hamrock_dowson_central"] == compressed.formulas["hamrock_dowson_central"]
 
 
+def test_a_film_that_is_pressed_flat_is_divided_by_the_density_in_either_piezoviscous_regime():
+    """At 150 N it was not, and 25 % thicker than at 260 N."""
+    light, heavy = (ball(DowsonHigginson(), load=load, radius_x=0.02) for load in (150.0, 400.0))
+    assert (light.regime, heavy.regime) == ("rigid piezoviscous", "elastic piezoviscous")
+    for each in (light, heavy):
+        film, told = (found["nijenbanning_venner_moes"] for found in (each.formulas, each.compared))
+        assert told == pytest.approx(film / each.density_ratio, rel=1e-13)
+
+
 def test_formulas_of_hard_bodies_are_not_shown_for_soft_or_rigid_ones():
     soft = ball(DowsonHigginson(), reduced_modulus=2e7, load=1.0)
     assert soft.regime == "elastic isoviscous"

@@ -66,3 +66,15 @@ def test_a_coating_as_soft_as_rubber_and_thicker_than_the_contact_counts_in_what
     assert hard.regime == "rigid isoviscous" and coated.regime == soft.regime == "elastic isoviscous"
     assert coated.heated_film(0.04, 0.14) == pytest.approx(soft.heated_film(0.04, 0.14), rel=1e-5)
     assert coated.density_ratio - 1.0 == pytest.approx(soft.density_ratio - 1.0, rel=1e-3)
+
+
+def test_a_layer_as_thick_as_a_half_space_has_its_inlet_and_its_formulas():
+    """Cells of layered bodies were counted by a width that was widened twice: 4.5 times too many."""
+    steel, layer = 226e9, Coating(40e-3, 1e9, 0.45, None, 0.3, 226e9)
+    oil = Lubricant(Barus(0.1, 18e-9), DowsonHigginson())
+    coated = PointContact(5.0, 11.43e-3, 11.43e-3, steel, 0.1, oil, deformation=layer)
+    alone = replace(coated, reduced_modulus=steel / coated.widening**3, deformation=None)
+    assert 1e-9 * alone.reduced_modulus == pytest.approx(2.48, rel=0.01)
+    assert coated.inlet_length * coated.x_scale == pytest.approx(alone.inlet_length * alone.x_scale)
+    assert coated.compared == pytest.approx(alone.compared)
+    assert coated.regime == alone.regime == "elastic isoviscous"
