@@ -11,7 +11,6 @@ from mgehl.output.resolution import RESOLVED_CELLS
 from mgehl.solver.beginning import NOR
 from mgehl.solver.recipe import FULL_FILM, IN_CONTACT, OTHER_SIDE, TOUCHING
 from mgehl.solver.recipe_words import NAMES
-from mgehl.solver.verification import LARGEST_EDGE_PRESSURE
 
 MOST = 3
 """Most pieces of advice that are given."""
@@ -46,6 +45,8 @@ def _tries(solution):
     result, config = solution.result, solution.config
     if solution.contact.is_loaded:
         yield from _of_domain(solution)
+    if result.settled and result.edge.wrong[0]:
+        return
     if not solution.contact.is_loaded or solution.is_dry:
         yield "solver.max_steps: a higher one, where the residual still falls"
         yield "grid.nodes: another number of nodes"
@@ -69,8 +70,7 @@ def _tries(solution):
 
 
 def _of_domain(solution):
-    """A domain that cuts the contact: that of "auto", or a larger one where that has no more room. Of very
-    wide ellipses "auto" has more room on more nodes."""
+    """A domain that cuts the contact: that of "auto", or a larger one where that has no more room."""
     edge, config = solution.result.edge, solution.config
     if not edge.cuts:
         if edge.too_few:
@@ -84,8 +84,6 @@ def _of_domain(solution):
            for name, (low, high) in ends.items()):  # fmt: skip
         keys = " and ".join(f'grid.{name} = "auto"' for name in names)
         yield f"{keys}: a domain that holds the contact and its inlet"
-    elif not edge.overlapping and edge.pressure_ratio < 2.0 * LARGEST_EDGE_PRESSURE:
-        yield f'grid.nodes = {2 * config.grid.nodes - 1}: "auto" then has more room to the sides'
     else:
         larger = {name: [round(LARGER * end, 2) for end in pair] for name, pair in ends.items()}
         keys = " and ".join(f"grid.{name} = {pair}" for name, pair in larger.items())
