@@ -14,6 +14,8 @@ from mgehl.output.pictures.titles import gap_words, position_labels, title_with_
 INSIDE = {0.8: 3.0, 1.25: 1.0}
 """Parts of the dry contact whose films make the axis of films, the second where the first is all contact;
 and its upper end over the largest of them, of a logarithmic axis the square."""
+OF_LAYERS = 3.0
+"""The same end where there is contact on layers alone."""
 SHOWN, PRESSED = 2.0, 0.01
 """Semi-axes from the centre that are shown at the least, and part of the largest pressure that is."""
 FINE = 801
@@ -111,6 +113,8 @@ def set_axes(axes, lines):
         films, room = np.concatenate(films), INSIDE[inside]
         if (films > 0.0).any():
             break
+    else:  # a layered contact may be wider
+        films, room = np.concatenate([line.film[line.status == CONTACT] for line in lines]), OF_LAYERS
     thinnest, top = min(line.film.min() for line in lines), films.max(initial=1e-3)
     low = max(films[films > 0.0].min(initial=top), top / DECADES)
     for (pressures, below), column in zip(axes.T, columns, strict=True):

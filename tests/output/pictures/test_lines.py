@@ -86,3 +86,12 @@ def test_it_is_drawn_where_no_film_or_no_node_is_inside(make_solution, drawn, co
     solution = make_solution(contact=contact, settings=[f"grid.x=[-{reach},{reach}]"])
     low, high = drawn(centre_lines, solution).axes[2].get_ylim()
     assert 0.0 <= low < high
+
+
+def test_layers_in_contact_beyond_the_dry_contact_make_the_axis(make_solution, drawn):
+    """The picture was 800 000 pixels high: dots of contact stood far outside of its axis."""
+    solution = make_solution(contact=1.4, settings=["grid.x=[-1.9,1.9]"])
+    contact, nm = solution.fields.status == CONTACT, 1e9 * solution.contact.film_scale
+    solution.fields.H[contact] = 3.0 / nm
+    low, high = drawn(centre_lines, solution).axes[2].get_ylim()
+    assert low <= 3.0 < high < 100.0
