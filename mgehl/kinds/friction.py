@@ -81,3 +81,9 @@ def _thins(config):
     section, slides = config.friction, config.motion.slip != 0.0
     is_asked = section.eyring_stress is not None and section.thinning is not False
     return is_asked and slides
+
+
+def thinning_words(contact):
+    """What formulas do not know where shear thins the film; nothing elsewhere."""
+    if contact.friction.thins:
+        yield "shear thins the film: it is thinner than formulas say, and its inlet has fewer cells"

@@ -8,7 +8,7 @@ import numpy as np
 from mgehl.config_value import AUTO, FARTHEST
 from mgehl.kinds import loaded_checks, surface, time
 from mgehl.kinds.bodies import roughness
-from mgehl.kinds.friction import check_friction, friction_from
+from mgehl.kinds.friction import check_friction, friction_from, thinning_words
 from mgehl.kinds.heat import check_factor, factor_words, heat_words, heated, solids_from
 from mgehl.kinds.kind import Effort, Kind, kept_together, pressure_unit
 from mgehl.kinds.lubricant import check_laws, lubricant_from
@@ -161,6 +161,7 @@ class LoadedKind(Kind):
                 for words in lambda_words(config, contact.expected_film, "a formula's")
             ),
             *(f"heat       {words}" for words in (*factor_words(contact), *heat_words(config, contact))),
+            *(f"thinned    {words}" for words in thinning_words(contact)),
             f"load       {_over_time(config, self.load_key, contact.load)} {self.load_unit}   "
             f"speed {_over_time(config, 'motion.speed', contact.speed)} m/s, the mean of both surfaces' "
             "speeds",

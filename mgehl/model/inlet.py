@@ -32,10 +32,14 @@ class Inlet:
     def inlet_length(self):
         """Length of the zone that builds the film, in units of a; of layered bodies an estimate. Of bodies
         that hardly yield it is sqrt(2 R h), on which the gap is twice the film."""
-        like = self.likeness
+        like, flooded = self.likeness, self.hardly_yields or self.hardly_stiffens
+        return self.inlet_length_of(like.flooded_film if flooded else like.grubin_film)
+
+    def inlet_length_of(self, film):
+        """The same of a film in metres."""
         if self.hardly_yields:
-            return sqrt(2.0 * like.radius_x * like.flooded_film) / self.x_scale
-        return self._inlet_of(like.flooded_film if self.hardly_stiffens else like.grubin_film)
+            return sqrt(2.0 * self.likeness.radius_x * film) / self.x_scale
+        return self._inlet_of(film)
 
     def _inlet_of(self, film):
         """s* = (h/C)^(2/3) of a film in metres."""

@@ -68,6 +68,8 @@ class FrictionResult:
     """Central film, or mean gap, if shear did not thin it; None where it does not, or nobody asked."""
     unthinned_minimum_nm: float | None = None
     """The minimum film then; None in older results, too."""
+    thins: bool = False
+    """Whether shear thins the film."""
 
 
 STRONGEST = 300.0
@@ -111,6 +113,7 @@ def friction_result(problem, state, steady=True):
         largest_shear_MPa=1e-6 * problem.grid.max(stress),
         temperatures=rise and _temperatures(problem, state, rise),
         per_metre=contact.is_line,
+        thins=friction.thins,
     )
     maps = {"shear": stress} if slides else {}
     return result, maps | ({"flash_1": rise.first, "flash_2": rise.second} if rise else {})

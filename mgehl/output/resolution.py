@@ -64,13 +64,26 @@ def inlet_cells(contact, mesh, scene=None):
     return min(there.inlet_cells(mesh) * (there.x_scale / contact.x_scale) for there in slow)
 
 
-def resolution(contact, mesh, scene=None):
-    """The `Resolution` of a loaded contact's inlet and surface by a mesh, and of its film by the domain.
+def inlet_cells_of(contact, mesh, film):
+    """Cells in the inlet of a contact whose central film in m is known: no more than formulas say. What
+    shear thins has fewer, and formulas do not know of it."""
+    known = contact.inlet_cells(mesh)
+    if not contact.friction.thins or not film > 0.0:
+        return known
+    length = contact.inlet_length_of(film * contact.density_ratio)
+    return min(known, length / contact.cell_along_motion(mesh))
+
+
+def resolution(contact, mesh, scene=None, film=None):
+    """The `Resolution` of a loaded contact's inlet and surface by a mesh, and of its film by the domain;
+    with the central film in m of a steady state that is known.
 
     Of a `Scene` the contact is that at a time of 0, the inlet that of the slowest motion, and the domain is
     judged at the instant that it takes most from.
     """
-    cells, lost = inlet_cells(contact, mesh, scene), film_lost(contact, mesh, scene)
+    by_formula = film is None or scene is not None
+    cells = inlet_cells(contact, mesh, scene) if by_formula else inlet_cells_of(contact, mesh, film)
+    lost = film_lost(contact, mesh, scene)
     domain, nodes = domain_verdict(lost), surface.wave_nodes(contact, mesh)
     verdict = "coarse" if cells >= SEEN_CELLS else "grid-determined"
     if cells >= RESOLVED_CELLS:

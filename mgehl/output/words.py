@@ -124,9 +124,11 @@ def heating_words(reduction, is_thinned):
 
 def thinning_words(result):
     """The film that there would be if shear did not thin it, the minimum where the central one would hardly
-    be thicker; nothing where nobody asked."""
+    be thicker."""
     friction, mixed = result.friction, result.mixed
     if not friction or friction.unthinned_film_nm is None:
+        if friction and friction.thins:
+            yield "shear thins the oil: how thick the film would be without that is not known"
         return
     films = {
         "central film": (result.central_film_nm, friction.unthinned_film_nm),

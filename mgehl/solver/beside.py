@@ -91,7 +91,9 @@ class Beside:
         thinned, friction = self.problem, self.problem.contact.friction
         contact = replace(thinned.contact, friction=replace(friction, thins=False))
         problem = ContactProblem(thinned.grid, thinned.deflection, contact, thinned.scheme)
-        return problem, solve_near(self._task, problem, problem.with_own_gap(self._state))
+        outcome = solve_near(self._task, problem, problem.with_own_gap(self._state))
+        # A film that is thinned severalfold is no beginning.
+        return (problem, outcome) if outcome.converged else begin(replace(self._task, contact=contact))
 
     def _solve(self, level, contact, state, scheme, **limits):
         """Problem and `Outcome` of a contact on a coarser grid, from the finer `state` at its nodes. With

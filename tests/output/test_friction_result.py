@@ -125,3 +125,8 @@ def test_no_film_is_told_that_would_be_as_thick(found, unthinned, words):
     friction = replace(found(0.2), unthinned_film_nm=unthinned[0], unthinned_minimum_nm=unthinned[1])
     result = SimpleNamespace(friction=friction, mixed=None, central_film_nm=12.0, minimum_film_nm=6.0)
     assert list(thinning_words(result)) == ([words] if words else [])
+
+
+def test_thinning_is_told_where_the_other_film_is_not_known(found):
+    (words,) = thinning_words(SimpleNamespace(friction=replace(found(0.2), thins=True), mixed=None))
+    assert words.startswith("shear thins the oil: how thick")

@@ -161,6 +161,17 @@ def test_shear_thins_a_film_by_newton_s_own_steps():
     assert 0.6 < thin.central_film_nm / thick.central_film_nm < 0.9
 
 
+def test_a_film_that_is_thinned_severalfold_has_fewer_cells_in_its_inlet_and_tells_both_films():
+    """By a formula's film they were 4.8, "resolved", where the film was a third off a finer grid's."""
+    slides, eyring = {"slide_to_roll": 2.0}, {"model": "eyring", "eyring_stress": 1e5}
+    plain = film_of(2.0)
+    thin = film_of(2.0, motion=slides, friction=eyring, solver={"start": "film", "error": True})
+    share = thin.central_film_nm / plain.central_film_nm
+    assert share < 0.3 and thin.friction.unthinned_film_nm == pytest.approx(plain.central_film_nm, rel=1e-5)
+    cells = [each.resolution.inlet_cells for each in (thin, plain)]
+    assert cells[0] / cells[1] == pytest.approx(share ** (2 / 3), rel=0.15)
+
+
 def test_a_film_along_y_is_thinned_as_one_along_x():
     slides = {"slide_to_roll": 1.0}
     eyring = {"model": "eyring", "eyring_stress": 2e6}
