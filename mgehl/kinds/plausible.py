@@ -1,15 +1,14 @@
 """Input that is allowed, and yet unusual: most often a wrong unit. Each is named; none is refused."""
 
 from mgehl.kinds.bodies import BODIES
-from mgehl.kinds.heat import solids_from
 from mgehl.kinds.loaded_checks import LARGEST_CONTACT, on_the_bodies
+from mgehl.kinds.plausible_bodies import implausible_heat, implausible_layer
 from mgehl.kinds.plausible_in_time import FASTEST, implausible_in_time
 from mgehl.kinds.surface_kinds import MOVING, NAMES, STILL, every_surface
 from mgehl.kinds.time import reference
 from mgehl.model.films import formula_of
-from mgehl.model.flash import has_temperatures
 from mgehl.model.frame import direction
-from mgehl.model.lubricant import USUAL_CONDUCTIVITY, Roelands
+from mgehl.model.lubricant import Roelands
 from mgehl.model.oils import CELSIUS, OILS
 from mgehl.model.own_function import OwnFunctionError
 
@@ -24,6 +23,15 @@ USUAL = {
     "body_2.roughness": (0.0, 2e-5, "m"),
     "body_1.Ra": (0.0, 2e-5, "m"),
     "body_2.Ra": (0.0, 2e-5, "m"),
+    "heat.conductivity_1": (0.05, 2500.0, "W/(m K)"),
+    "heat.conductivity_2": (0.05, 2500.0, "W/(m K)"),
+    "heat.capacity_1": (5e5, 5e6, "J/(m3 K)"),
+    "heat.capacity_2": (5e5, 5e6, "J/(m3 K)"),
+    "lubricant.conductivity": (0.05, 1.0, "W/(m K)"),
+    "lubricant.thermoviscosity": (3e-3, 0.2, "1/K"),
+    "friction.eyring_stress": (1e5, 1e8, "Pa"),
+    "friction.limiting_coefficient": (5e-3, 0.2, ""),
+    "friction.boundary_coefficient": (0.0, 1.5, ""),
 }
 """{key: smallest and largest value of machines, from gels to diamond and from petrol to gear oil, unit}."""
 
@@ -60,7 +68,7 @@ def implausible(config, contact):
         value = physics[key] if key in physics else config.value(key)
         known = isinstance(value, float) and key not in config.unused  # not a course in time
         if known and value and not low <= value <= high:
-            yield f"{key} = {value:.4g} {unit}: machines have {low:g} to {high:g}"
+            yield f"{f'{key} = {value:.4g} {unit}'.rstrip()}: machines have {low:g} to {high:g}"
     if not contact.is_loaded:
         return
     yield from _pressure(contact)
@@ -70,6 +78,7 @@ def implausible(config, contact):
                 f"the contact's semi-axis along {axis} is {1e3 * size:.3g} mm, more than half of a body's "
                 f"radius of {1e3 * radius:.3g} mm: such bodies are no half-spaces, as is assumed"
             )
+    yield from implausible_layer(contact)
     yield from _flat_lay(config)
     yield from _steep(contact)
     if config.is_dry:
@@ -84,7 +93,7 @@ def implausible(config, contact):
     yield from _against(contact)
     yield from _stands_still(config)
     yield from _turned_axes(config)
-    yield from _without_temperatures(config, contact)
+    yield from implausible_heat(config, contact)
     yield from _either_body(config)
     if config.is_in_time:
         yield from implausible_in_time(config, contact)
@@ -198,24 +207,6 @@ def _turned_axes(config):
             yield f"{name}.rotation is a speed {along_x} {angle:g}: {name}.rotation_radius says by which"
     if config.motion.ring_rotation is not None:
         yield f"motion.ring_rotation is a speed {along_x} {angle:g}: bearings roll along x"
-
-
-def _without_temperatures(config, contact):
-    """Bodies that conduct, in time; beside oil of which that is not known."""
-    if solids_from(config) is None:
-        return
-    if config.is_in_time:
-        return
-    if contact.friction.slide_to_roll and not has_temperatures(contact):
-        yield (
-            f"heat: no temperatures are told at motion.slide_to_roll = {contact.friction.slide_to_roll:g}: "
-            "below a line contact, a body at rest grows warmer for ever; 1.99 has one"
-        )
-    elif config.lubricant.conductivity is None:
-        yield (
-            f"lubricant.conductivity is not given: flash temperatures take {USUAL_CONDUCTIVITY:g} W/(m K), "
-            "as is usual"
-        )
 
 
 def _either_body(config):

@@ -15,6 +15,9 @@ from mgehl.model.sources import SOURCES
 
 BALL = {"motion.speed": "1 m/s"}
 STEEL = {"conductivity": 46.0, "capacity": 3.6e6}
+SLIDES = {"motion.slide_to_roll": 0.1}
+BOTH = {f"heat.{name}_{body}": value for name, value in STEEL.items() for body in (1, 2)}
+LAYER = {"contact.deformation": "coated", "coating.thickness": "0.1 mm", "coating.modulus": "50 MPa"}
 OIL = BALL | {"lubricant.oil": "PAO100", "lubricant.temperature": "60 degC"}
 
 
@@ -50,7 +53,13 @@ def test_gels_and_rubber_are_machines_too():
      (OIL | {"lubricant.temperature": "0 degC"}, "PAO100 was measured from 40 to 100 C"),
      (OIL, "p_h = 2.26 GPa: PAO100 was measured up to 1 GPa: its law is extended beyond"),
      ({"contact.load": "1 mN", "lubricant.viscosity": "1 Pa s"}, "fold apart"),
-     ({"motion.speed": "0.1 um/s", "solver.start": "film"}, "below discretization.film_threshold")],
+     ({"motion.speed": "0.1 um/s", "solver.start": "film"}, "below discretization.film_threshold"),
+     (SLIDES | BOTH | {"heat.capacity_1": 3600.0}, "heat.capacity_1 = 3600 J/(m3 K): machines have 500000"),
+     (SLIDES | BOTH | {"lubricant.conductivity": 140.0}, "lubricant.conductivity = 140 W/(m K)"),
+     (SLIDES | BOTH | LAYER, "flash temperatures know no layer"), (BOTH, "bodies that do not slide"),
+     (SLIDES | {"friction.model": "eyring", "friction.eyring_stress": 7200.0}, "eyring_stress = 7200 Pa"),
+     (LAYER | {"coating.thickness": "2 um"}, "presses a layer of 2 um by some"),
+     (LAYER | {"coating.thickness": "40 mm"}, "coating.thickness = 40 mm is more than a radius of 12.7")],
 )  # fmt: skip
 def test_what_is_unusual_is_named(settings, words):
     found = odd(BALL | settings)
@@ -140,19 +149,22 @@ def test_roughness_that_no_body_carries_is_named_in_time(body, said):
 
 
 def test_a_run_in_time_says_that_it_tells_no_temperatures():
-    bodies = {f"heat.{name}_{body}": value for name, value in (("conductivity", 46.0), ("capacity", 3.6e6))
-              for body in (1, 2)}  # fmt: skip
-    assert any("no temperatures" in line for line in odd(BALL | bodies | {"time.end": "1 ms"}))
-    assert not any("no temperatures" in line for line in odd(BALL | bodies))
+    slides = BALL | BOTH | SLIDES
+    assert any("no temperatures" in line for line in odd(slides | {"time.end": "1 ms"}))
+    assert not any("no temperatures" in line for line in odd(slides))
 
 
 @pytest.mark.parametrize(
-    "slides, said", [(2.0, "motion.slide_to_roll = 2: below a line contact"), (1.99, ""), (0.0, "")]
+    "slides, said",
+    [
+        (2.0, "motion.slide_to_roll = 2: below a line contact"),
+        (1.99, ""),
+        (0.0, "bodies that do not slide"),
+    ],
 )
 def test_a_line_contact_above_a_body_at_rest_says_that_it_tells_no_temperatures(slides, said):
-    bodies = {f"heat.{key}_{body}": value for body in (1, 2) for key, value in STEEL.items()}
     line = {"contact.kind": "line", "contact.load_per_length": 1e5, "motion.slide_to_roll": slides}
-    found = [words for words in odd(BALL | bodies | line) if "no temperatures" in words]
+    found = [words for words in odd(BALL | BOTH | line) if "no temperatures" in words]
     assert len(found) == bool(said) and all(said in words for words in found)
 
 
@@ -173,10 +185,9 @@ def test_a_coating_on_either_of_two_bodies_says_what_it_takes(other, is_odd):
 
 @pytest.mark.parametrize("oil, is_odd", [({}, True), ({"lubricant.conductivity": 0.13}, False)])
 def test_flash_temperatures_say_what_they_take_of_an_oil_that_tells_no_conductivity(oil, is_odd):
-    bodies = {f"heat.{key}_{body}": value for body in (1, 2) for key, value in STEEL.items()}
     said = "lubricant.conductivity is not given: flash temperatures take 0.14 W/(m K), as is usual"
-    assert (said in odd(BALL | bodies | oil)) == is_odd
-    assert said not in odd(BALL | oil)
+    assert (said in odd(BALL | BOTH | SLIDES | oil)) == is_odd
+    assert said not in odd(BALL | SLIDES | oil)
 
 
 @pytest.mark.parametrize("layers, is_odd", [(0.0, True), ("2 nm", False)])
