@@ -78,7 +78,7 @@ def heated(config, contact):
 def factor_words(contact):
     """What Gupta's factor leaves of the films of formulas, of an oil with the data for it."""
     if contact.thermal_reduction is not None:
-        left = f"some {100.0 * max(contact.thermal_reduction, 0.0):.2g} %"
+        left = f"some {100.0 * max(contact.thermal_reduction, 0.0):.0f} %"
         does = f"leaves {left}" if contact.lubricant.thinned < 1.0 else f"would leave {left}"
         does = does if contact.thermal_reduction >= LEAST_HEATED else f"does not hold: it {does}"
         yield f'isothermal films: lubricant.heating = "factor" {does} of them (Gupta 1992)'
@@ -92,7 +92,7 @@ def heat_words(config, contact):
     beta, k = oil.thermoviscosity or thinning_of(config), oil.conductivity
     factor = contact.heated_film(beta or THINNING, k or USUAL_CONDUCTIVITY)
     if factor < WARM and "piezoviscous" in contact.regime:
-        left = f"some {100.0 * factor:.2g} %" if factor > LEAST_LEFT else "less than half"
+        left = f"some {100.0 * factor:.0f} %" if factor > LEAST_LEFT else "less than half"
         words = {f"beta {beta or THINNING:.2g} 1/K": beta, f"k {k or USUAL_CONDUCTIVITY:g} W/(m K)": k}
         given = "".join(f"{each}, " for each, known in words.items() if known)
         usual = " and ".join(each for each, known in words.items() if not known)

@@ -20,10 +20,14 @@ class Source:
     doi: str = ""
 
     @property
+    def people(self):
+        """Authors, an institution without the braces by which BibTeX does not take it apart."""
+        return self.authors.replace("{", "").replace("}", "")
+
+    @property
     def short(self):
         """Family names and year."""
-        names = [name.partition(",")[0] for name in self.authors.split(" and ")]
-        names = [name.strip("{}") for name in names]  # of an institution, which BibTeX is not to take apart
+        names = [name.partition(",")[0] for name in self.people.split(" and ")]
         return f"{', '.join(names) if len(names) < 4 else names[0] + ' et al.'} {self.year}"
 
     def bibtex(self, key):

@@ -21,7 +21,7 @@ LONGEST_UNBROKEN = 18
 WIDE = 1.3
 """Width over height from which a picture is wide, and gets a line of its own."""
 
-NO_NUMBER = "not finite"
+NO_NUMBER = "no number"
 """What a number that is nan, infinite, or null in result.json is called."""
 
 

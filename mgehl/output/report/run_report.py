@@ -202,7 +202,7 @@ def notes_on(solution):
 def sources_of(solution):
     """Rows of the publications that a run used."""
     for source in (SOURCES[key] for key in cited(solution.config, solution.contact)):
-        yield source.authors, source.title, f"{source.where}, {source.year}", source.doi
+        yield source.people, source.title, f"{source.where}, {source.year}", source.doi
 
 
 def keys_of(config):
