@@ -106,11 +106,13 @@ def from_grids(result, grids, order, other=None):
         return no_band(f"on {coarser.nodes} nodes, the next coarser grid, there is no film to compare with")
     known, unlike = [each for each in grids if each.settled], "" if other else _unlike(result, *grids[:2])
     central, minimum = (_band(result, known, film, order, bool(unlike), other) for film in FILMS)
+    halves = central.half_width, minimum.half_width
+    if result.minimum_film_nm >= result.central_film_nm:
+        halves = (max(halves),) * 2  # of a light load: one film, and one band
     by = f" by {other.couette} and the {other.face_mobility} mean" if other else ""
     nodes = " and ".join(str(grid.nodes) for grid in known[1:])
     how = f"from the differences to {nodes} nodes{by}, of order {order}{unlike}"
-    found = central.half_width, minimum.half_width, how, order
-    return FilmError(*found, central.observed_order, minimum.observed_order)
+    return FilmError(*halves, how, order, central.observed_order, minimum.observed_order)
 
 
 def _unlike(result, finest, coarser):

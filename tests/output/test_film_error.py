@@ -44,6 +44,13 @@ def film():
     return make_result(central_film_nm=40.0, minimum_film_nm=10.0, contact=NO_CONTACT)
 
 
+def test_the_smallest_film_in_the_middle_has_one_band():
+    """Of a light load: it is the central film, and had another."""
+    same = make_result(central_film_nm=40.0, minimum_film_nm=40.0, contact=NO_CONTACT)
+    found = from_grids(same, grids(10.0, 10.4), 2)
+    assert found.central_nm == found.minimum_nm > 10.0
+
+
 class TestWhetherThereIsOne:
     def test_of_a_film_there_is_but_not_on_a_rough_surface(self, film):
         assert why_no_band(film, SMOOTH) == ""
