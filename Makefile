@@ -125,8 +125,8 @@ OF_slow := --set solver.start=film --over motion.speed="7.5,2.5,1,.25,.1,.025,.0
   --over grid.nodes=129,257,513,1025
 OF_rest := configs/rough.toml --over motion.speed="2e-2..1e-9 m/s:18"
 OF_rest-bare := $(OF_rest) --set contact.boundary_film=0 --set grid.nodes=129
-OF_solids-fine := configs/rough.toml --set surface.shortest_wavelength="5 um" --over motion.speed="30,17.5,8,3,1 mm/s" \
-  --over grid.nodes=513,1025
+OF_solids-fine := configs/rough.toml --set surface.shortest_wavelength="5 um" --over motion.speed="17.5,3,0.5 mm/s" \
+  --set grid.nodes=513
 TRACTION_OILS := M100 N100 PAO100
 TRACTION := configs/traction.toml --over motion.slide_to_roll="log(1e-3..0.4:10)" --over motion.speed="2,16 m/s"
 OF_traction-N100 := $(TRACTION) --set lubricant.oil=N100 --set friction.limiting_coefficient=0.053 \

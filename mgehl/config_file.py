@@ -6,7 +6,7 @@ import select
 import stat
 import sysconfig
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import contextmanager
 from math import isfinite
 from pathlib import Path
@@ -62,8 +62,11 @@ def read_toml(path):
 
 
 def nested(settings):
-    """The nested values of settings, "section.key=value" each, or a mapping: of each "section.key" to its
-    value, or of a section to its keys. Raises ConfigError."""
+    """The nested values of settings, "section.key=value" each or alone, or a mapping: of each "section.key"
+    to its value, or of a section to its keys. Raises ConfigError."""
+    settings = [settings] if isinstance(settings, str) else settings
+    if not isinstance(settings, Iterable):
+        raise ConfigError(f'settings = {shown(settings)}: must be {{"section.key": value, ...}}')
     pairs = _of_mapping(settings) if isinstance(settings, Mapping) else map(_read_setting, settings)
     tables = {}
     for name, value in pairs:

@@ -46,6 +46,9 @@ def test_an_array_is_a_sequence():
 def test_settings_may_be_sections():
     flat = {"grid.nodes": 65, "motion.speed": 2.0}
     assert mgehl.load(settings={"grid": {"nodes": 65}, "motion.speed": 2.0}) == mgehl.load(settings=flat)
+    assert mgehl.load(None, "grid.nodes=65") == mgehl.load(None, ["grid.nodes=65"])
+    said = refusal(mgehl.load().with_, None, error=mgehl.ConfigError)
+    assert said == 'settings = None: must be {"section.key": value, ...}'
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from mgehl.model.lubricant import DowsonHigginson
 from mgehl.model.on_bodies import OnBodies
 
 RESOLVED_CELLS = 4.0
-"""Cells in the inlet from which on the film does not change with the grid."""
+"""Cells in the inlet from which on the film is off by 0.4 % at the most, by the default."""
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ class ContactResult:
     nodes: int
     area_fraction: float
     load_fraction: float
-    """Part of the load that the contact carries; the fluid carries the rest."""
+    """Part of the load on nodes in contact, oil in layers included."""
     x_nodes: tuple | None
     y_nodes: tuple | None
     largest_gap_nm: float
@@ -131,7 +131,8 @@ class Result:
     """
 
     converged: bool
-    """`settled`, Eq. 2 holds within pressures' error, the contact lies in its domain, on enough nodes."""
+    """`settled`, Eq. 2 holds within pressures' error, no node makes oil, the contact lies in its domain, on
+    enough nodes."""
     settled: bool
     """Sets, residual, load and complementarity hold; of dry contacts and bearings as `converged`."""
     reason: str

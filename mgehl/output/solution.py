@@ -122,7 +122,7 @@ class Solution:
 
     @property
     def pressure(self) -> Reals | None:
-        """Fluid or contact pressure p in Pa, (ny, nx); on rank 0."""
+        """Total pressure P in Pa, (ny, nx); on rank 0."""
         return None if self.fields is None else self.fields.P * self.contact.pressure_scale
 
     @property

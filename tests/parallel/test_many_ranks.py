@@ -19,8 +19,7 @@ RANKS = 9
 CASES = {
     "film": {"motion": {"speed": 3.0}, "grid": papers_grid(65)},
     "film on coarse grids, too": {"motion": {"speed": 8.0}, "grid": papers_grid(129)},
-    "contact": PAPER
-    | {"motion": {"speed": 5e-6}, "grid": papers_grid(65), "solver": {"start": "contact"}},
+    "contact": PAPER | {"motion": {"speed": 5e-6}, "grid": papers_grid(65), "solver": {"start": "contact"}},
     "wedge": {"contact": {"kind": "wedge"}, "wedge": {"pillar": "square"}, "grid": {"nodes": 65}},
 }
 SOLVE_ALL = """
