@@ -61,7 +61,8 @@ class Solution(Solved):
             return xarray.load_dataset(path, engine="h5netcdf")
 
     def plot(self, kind: str = "lines") -> "Figure":
-        """A matplotlib figure: lines, film, pressure, status, history, surface; of a dry contact gap.
+        """A matplotlib figure: lines, film, pressure, status, history, surface; where bodies slide shear,
+        flash_1 and flash_2; of a run in time time, of a dry contact gap.
 
         Raises UserError for a kind that this contact does not have.
         """

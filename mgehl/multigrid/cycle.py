@@ -148,36 +148,34 @@ class MultigridSolver:
         `rate` is 1/time step of an implicit step, or one for each node, (lines, nx); zero for the steady
         equations. The evaluation forgets its faces and, where memory is short, the fluid.
         """
+        self._linearise_finest(evaluation, rows, rate)
+        here = _About.finest(evaluation, rows, rate)
+        for level in range(len(self.jacobians) - 2, -1, -1):
+            finer, here = here, here.on_coarser(self._transfers[level], averages=self._in_valleys)
+            self._linearise_coarse(level, evaluation.contact, here, finer)
+        self._coarse.gather()
+        if self._memory_is_short:
+            evaluation.forget_fluid()
+
+    def _linearise_finest(self, evaluation, rows, rate):
+        """The operator that is solved, and that of the cycle where its scheme is another."""
         leaks = not self.jacobian.scheme.contact_law.closes_faces
         if self.jacobian is not self.jacobians[-1]:
             self.jacobian.linearise(evaluation, rows, rate, leaks)
         self.jacobians[-1].linearise(evaluation, rows, rate, leaks)
         evaluation.forget()
-        # Contents are corrected on the finest grid alone.
-        rows = np.where((rows == FLOW) & (own(evaluation.status) == CAVITATED), PRESSURE, rows)
-        fine = [own(ghosted) for ghosted in (evaluation.P, evaluation.H, evaluation.status)]
-        filling = None if evaluation.filling is None else own(evaluation.filling)
-        eps = own(evaluation.fluid.eps)
-        for level in range(len(self.jacobians) - 1, 0, -1):
-            transfer, jacobian = self._transfers[level - 1], self.jacobians[level - 1]
-            inject = transfer.inject
-            coarse = [inject(array) for array in fine]
-            status, coarse_rows = coarse[-1], inject(rows)
-            rate = inject(rate) if np.ndim(rate) else rate
-            filling = None if filling is None else inject(filling)
-            found = _evaluate(jacobian, evaluation.contact, *coarse, filling)
-            if self._in_valleys:
-                eps = transfer.averaged(eps)
-                found = found.with_mobility(jacobian.grid.halo(eps))
-            jacobian.linearise(found, coarse_rows, rate)
-            if not self._in_valleys:
-                end_halfway(jacobian.linearisation, coarse_rows, transfer, rows, fine[-1])
-            self._smoothers[level - 1].partition(rows)
-            self._partitioned[level - 1].partition((status, coarse_rows), (fine[-1], rows))
-            fine, rows = coarse, coarse_rows
-        self._coarse.gather()
-        if self._memory_is_short:
-            evaluation.forget_fluid()
+
+    def _linearise_coarse(self, level, contact, here, finer):
+        """Grid `level` about `here`, an `_About`; smoother and transfer of the grid above about `finer`."""
+        transfer, jacobian = self._transfers[level], self.jacobians[level]
+        found = _evaluate(jacobian, contact, here)
+        if self._in_valleys:
+            found = found.with_mobility(jacobian.grid.halo(here.eps))
+        jacobian.linearise(found, here.rows, here.rate)
+        if not self._in_valleys:
+            end_halfway(jacobian.linearisation, here.rows, transfer, finer.rows, finer.status)
+        self._smoothers[level].partition(finer.rows)
+        self._partitioned[level].partition((here.status, here.rows), (finer.status, finer.rows))
 
     def forget(self):
         """Where memory is short, free that of the linearisation and its factors: the next has others."""
@@ -217,9 +215,42 @@ def _scheme_of_cycle(asked, solved, better):
     return solved if couette == solved.couette else replace(solved, couette=couette)
 
 
-def _evaluate(jacobian, contact, P, H, status, filling):
+@dataclass(frozen=True)
+class _About:
+    """What a grid of the cycle is linearised about; arrays (lines, nx)."""
+
+    P: np.ndarray
+    H: np.ndarray
+    status: np.ndarray
+    rows: np.ndarray
+    rate: np.ndarray | float
+    """1/time step, of each node or of all."""
+    filling: np.ndarray | None
+    eps: np.ndarray
+    """Mobility of the finest grid, averaged in valleys."""
+
+    @classmethod
+    def finest(cls, evaluation, rows, rate):
+        """That of the finest grid. Contents are corrected there alone: to coarse grids they are given."""
+        P, H, status = (own(ghosted) for ghosted in (evaluation.P, evaluation.H, evaluation.status))
+        rows = np.where((rows == FLOW) & (status == CAVITATED), PRESSURE, rows)
+        filling = None if evaluation.filling is None else own(evaluation.filling)
+        return cls(P, H, status, rows, rate, filling, own(evaluation.fluid.eps))
+
+    def on_coarser(self, transfer, averages):
+        """The same at the nodes of the next coarser grid; the mobility `averages` what lies around."""
+        inject = transfer.inject
+        return _About(
+            inject(self.P), inject(self.H), inject(self.status), inject(self.rows),
+            inject(self.rate) if np.ndim(self.rate) else self.rate,
+            None if self.filling is None else inject(self.filling),
+            transfer.averaged(self.eps) if averages else self.eps,
+        )  # fmt: skip
+
+
+def _evaluate(jacobian, contact, about):
     """The state of a coarse grid, evaluated as its Jacobian's scheme asks, of a contact with its oil."""
-    grid = jacobian.grid
-    ghosted = grid.halo(P), grid.halo(H), grid.halo_status(status)
+    grid, filling = jacobian.grid, about.filling
+    ghosted = grid.halo(about.P), grid.halo(about.H), grid.halo_status(about.status)
     filling = None if filling is None else grid.halo(filling)
     return Evaluation(*ghosted, grid.mesh, contact, jacobian.scheme, filling=filling)

@@ -56,9 +56,8 @@ def nested_iteration(task):
 
 def _solve(task, problem, state, settings, solve):
     """Solve from a state, by its own `SolverSettings`; where that leads nowhere, anew by time steps."""
-    in_time = replace(settings, newton=settings.newton.squeezed())
-    recipe, patient = (recipe_of(each, problem.contact) for each in (settings, in_time))
-
+    squeezed = replace(settings, newton=settings.newton.squeezed())
+    recipe, patient = (recipe_of(each, problem.contact) for each in (settings, squeezed))
     if recipe.newton.squeeze > 0.0:
         return solve_on(task, problem, state, recipe, solve)
     outcome = solve_on(task, problem, state.copy(), recipe, solve)

@@ -48,12 +48,12 @@ MOST_SLOWER = 2.0
 """Ratio of speeds that contact which shuts its faces is led over at once: from a film 2.3 times as fast the
 first step closes constrictions, and what has touched stays long: 14 times the work, or no end."""
 
-IDLE, IDLE_IN_TIME = 15, 30
+IDLE, IDLE_SQUEEZED = 15, 30
 """Steps in a row that may gain nothing; and so many implicit time steps, which pass a fold slowly and let
 contact spread node by node: solves that converged had at most 4 and 23. Contact that closes continuously
 has no such limit in time, nor near peaks: the residual stays until valleys have filled or drained."""
 
-MOST_IN_TIME = 30
+STEPS_IN_TIME = 30
 """Newton steps after which a step in time is halved."""
 
 CERTAIN = 1e-11
@@ -110,7 +110,7 @@ def recipe_of(settings, contact, begins=None):
         on_coarse_grids=start == FULL_FILM and not touching and settings.method != "relaxation",
         most_slower=MOST_SLOWER if law.closes_faces else inf,
         otherwise=_otherwise(settings, start, guess, touching),
-        newton=_newton(settings, contact, peaks, in_time=closed or touching or start == UNSEEN_FILM),
+        newton=_newton(settings, contact, peaks, squeezed=closed or touching or start == UNSEEN_FILM),
         cycle=replace(settings.cycle, rough=rough, in_valleys=peaks in (NEAR, TOUCHING)),
     )
 
@@ -119,7 +119,7 @@ def recipe_in_time(settings, contact):
     """The `Recipe` of a step in time: what the surfaces carry is known. Where bodies part, shut-in oil
     fills gaps as small as rounding: their nodes would change for ever, with no residual to tell."""
     recipe = recipe_of(settings, contact, A_STATE)
-    limits = {"max_work": 10**9, "max_steps": MOST_IN_TIME, "idle_steps": MOST_IN_TIME}
+    limits = {"max_work": 10**9, "max_steps": STEPS_IN_TIME, "idle_steps": STEPS_IN_TIME}
     newton = replace(recipe.newton, squeeze=0.0, certain=settings.newton.tolerance, **limits)
     return replace(recipe, scheme=replace(recipe.scheme, motion=(0.0, 0.0)), newton=newton)
 
@@ -152,13 +152,13 @@ def _otherwise(settings, start, guess, touching):
     return (OTHER_SIDE[start],) if shuts and start in OTHER_SIDE else ()
 
 
-def _newton(settings, contact, peaks, in_time):
-    """Newton's rules; `in_time` steps have a squeeze at the least."""
+def _newton(settings, contact, peaks, squeezed):
+    """Newton's rules; `squeezed` steps have a squeeze at the least."""
     scheme, rough = settings.scheme, contact.is_rough
-    asked = settings.newton.squeezed() if in_time else settings.newton
+    asked = settings.newton.squeezed() if squeezed else settings.newton
     by_film, passes_folds = scheme.contact_law.is_continuous, scheme.may_fold or asked.squeeze > 0.0
     goes_on = by_film and (asked.squeeze > 0.0 or peaks not in (NONE, COVERED))
-    idle = asked.max_steps if goes_on else IDLE_IN_TIME if passes_folds else IDLE
+    idle = asked.max_steps if goes_on else IDLE_SQUEEZED if passes_folds else IDLE
     return replace(
         asked,
         idle_steps=asked.idle_steps or idle,

@@ -22,7 +22,7 @@ from mgehl.solver.partition import RESTLESS, Changes, Partition
 from mgehl.solver.position import Position
 from mgehl.solver.problem import DIVERGED
 from mgehl.solver.recipe import IDLE as IDLE_STEPS
-from mgehl.solver.recipe import IDLE_IN_TIME
+from mgehl.solver.recipe import IDLE_SQUEEZED
 from mgehl.solver.settings import NewtonSettings
 
 TOLERANCE = 1e-8
@@ -120,7 +120,7 @@ class TestIdleSteps:
         """Rounding ends the fall of the residual at some 1e-12: of own steps, then of time steps."""
         ended = solve(paper_contact(1.0), 65, newton={"tolerance": 1e-30}).outcome
         assert not ended.converged and "did not lower it" in ended.reason
-        assert len(since_lowered(ended)) == IDLE_IN_TIME and ended.cycles[-1].step < 80
+        assert len(since_lowered(ended)) == IDLE_SQUEEZED and ended.cycles[-1].step < 80
 
     def test_a_user_may_have_more_or_less_patience(self, paper_contact, solve):
         ended = solve(paper_contact(1.0), 65, newton={"tolerance": 1e-30, "idle_steps": 3}).outcome
