@@ -1,5 +1,7 @@
 """How much of a Newton step is taken: no pressure and no film may change by too much at once."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from mgehl.discretization.status import LUBRICATED
@@ -13,25 +15,40 @@ SMALLEST = 1e-300
 """So that nothing is divided by zero."""
 
 
+class Length(NamedTuple):
+    """How much of a step is taken."""
+
+    part: float
+    """Of the whole step, at most 1."""
+    gap: np.ndarray | None = None
+    """The gap that it leads to, (lines, nx), where that is known already."""
+    falls: np.ndarray | None = None
+    """What the gap falls by in a whole step, where films limit it."""
+
+
 def step_length(problem, partition, evaluation, state, dP, dH0, settings, in_turn=False):
-    """Part of the step -dP (lines, nx), -dH0 from an evaluated state, at most 1, by `NewtonSettings`; the
-    gap that it leads to, and what the gap falls by in a whole step, or None (collective). With `in_turn` so
-    does the `Partition` change."""
-    # A film falls to the pressure at which it tears and no further, whatever a step asks for.
+    """The `Length` of a step -dP (lines, nx), -dH0 from an evaluated state, by `NewtonSettings`
+    (collective). `in_turn` says how the `Partition` is going to change sets."""
+    part = _by_pressures(problem, state, dP, settings)
+    if not settings.by_film:
+        return Length(part)
+    P = state.P - part * dP
+    P[np.logical_or(*partition.tension(P, state.status, in_turn))] = problem.contact.tears_at
+    H = problem.gap(P, state.H0 - part * dH0)
+    allowed = LARGEST_CHANGE / max(mean_change(problem, evaluation, state, H), SMALLEST)
+    falls = (state.H - H) / part
+    return Length(part, H, falls) if allowed >= 1.0 else Length(part * allowed, falls=falls)
+
+
+def _by_pressures(problem, state, dP, settings):
+    """Part of the step by which no pressure changes too much. A film falls to the pressure at which it
+    tears and no further, whatever a step asks for."""
     room = np.where(state.status == LUBRICATED, state.P - problem.contact.tears_at, np.inf)
     largest = problem.grid.max(np.abs(np.minimum(dP, room)), initial=0.0)
     limit = settings.max_pressure_step
     if settings.over_largest:
         limit *= max(1.0, problem.grid.max(state.P, initial=0.0))
-    length = min(1.0, limit / max(largest, SMALLEST))
-    if not settings.by_film:
-        return length, None, None
-    P = state.P - length * dP
-    P[np.logical_or(*partition.tension(P, state.status, in_turn))] = problem.contact.tears_at
-    H = problem.gap(P, state.H0 - length * dH0)
-    allowed = LARGEST_CHANGE / max(mean_change(problem, evaluation, state, H), SMALLEST)
-    dH = (state.H - H) / length
-    return (length, H, dH) if allowed >= 1.0 else (length * allowed, None, dH)
+    return min(1.0, limit / max(largest, SMALLEST))
 
 
 def mean_change(problem, evaluation, state, H):
