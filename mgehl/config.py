@@ -189,7 +189,18 @@ def read_tables(path=None, settings=()):
 def _set_anew(tables, settings):
     """Nested values with settings laid over them; keys that a setting leaves without a meaning go. What
     those gave beside it stays, as a number. Raises ConfigError."""
-    given, found = nested(settings), choices(tables)
+    given = nested(settings)
+    laid = _laid(_laid(tables, _left_alone(tables, given)), given)
+    for section, _, key in (word.partition(".") for word in left_over(tables, laid, given)):
+        laid[section].pop(key, None)
+    check_arms(tables, laid, given)
+    return laid
+
+
+def _left_alone(tables, given):
+    """Nested numbers that words gave which what is `given` overrules: an oil's viscosity goes where one is
+    set, and its pressure_viscosity stays."""
+    found = choices(tables)
     # A law beside a viscosity means something when the oil has gone, and not yet.
     others = {
         section: {
@@ -198,15 +209,12 @@ def _set_anew(tables, settings):
         }
         for section, table in given.items()
     }  # fmt: skip
-    before, numbers = _laid(tables, others), {}
-    if alone := orphans(before, given):
-        found = config_from_tables(before).derived
-        numbers = {each.key: each.value for each in found if each.key in alone}
-    laid = _laid(_laid(tables, nested(numbers)), given)
-    for section, _, key in (word.partition(".") for word in left_over(tables, laid, given)):
-        laid[section].pop(key, None)
-    check_arms(tables, laid, given)
-    return laid
+    before = _laid(tables, others)
+    alone = orphans(before, given)
+    if not alone:
+        return {}
+    derived = config_from_tables(before).derived
+    return nested({each.key: each.value for each in derived if each.key in alone})
 
 
 def _laid(tables, given):

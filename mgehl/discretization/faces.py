@@ -83,26 +83,36 @@ def _nodes_of_flow(axis, terms, couette):
 
 def _add_poiseuille(flow, fluid, axis, mobility):
     """Add -eps (P_E - P_W)/distance with eps the face's mean mobility  [Liu eqs. 7, 16, 30]."""
-    faces = flow.value.shape[1]
-    closeness = np.full(faces, 1.0 / axis.distance)
+    closeness = np.full(flow.value.shape[1], 1.0 / axis.distance)
     conductance = mobility.value * closeness
     add_poiseuille(axis.sides, fluid.P, conductance, flow.value)
-    by_eps = [slope if np.ndim(slope) else np.full((1, faces), slope) for slope in mobility.by_eps]
-    for slopes, eps_by in zip((flow.by_P, flow.by_H), fluid.mobility(axis)[1:], strict=True):
-        if slopes:
-            add_poiseuille_slopes(axis.sides, fluid.P, closeness, *by_eps, eps_by, slopes[W], slopes[E])
-    if flow.by_P:
-        flow.by_P[W] += conductance
-        flow.by_P[E] -= conductance
-    if flow.by_P and mobility.by_gap + mobility.by_rho:
-        gradient = (axis.at(fluid.P, SHIFT[E]) - axis.at(fluid.P, SHIFT[W])) * closeness
-        for node, slope in zip((W, E), mobility.by_gap if flow.by_H else (), strict=False):
-            flow.by_H[node] -= gradient * slope
-        for node, slope in zip((W, E), mobility.by_rho, strict=False):
-            flow.by_P[node] -= gradient * slope * axis.at(fluid.drho_dP, SHIFT[node])
+    if not flow.is_linearised:
+        return
+    _add_by_mobilities(flow, fluid, axis, mobility, closeness)
+    flow.by_P[W] += conductance
+    flow.by_P[E] -= conductance
+    if mobility.by_gap + mobility.by_rho:
+        _add_by_gaps_and_densities(flow, fluid, axis, mobility, closeness)
     if fluid.torn is not None:
-        for node in (W, E) if flow.by_P else ():
+        for node in (W, E):
             flow.by_P[node] *= ~axis.at(fluid.torn, SHIFT[node])  # its pressure is given
+
+
+def _add_by_mobilities(flow, fluid, axis, mobility, closeness):
+    """Add what changes as the mobilities of both nodes do."""
+    shape = 1, flow.value.shape[1]
+    by_eps = [slope if np.ndim(slope) else np.full(shape, slope) for slope in mobility.by_eps]
+    for slopes, eps_by in zip((flow.by_P, flow.by_H), fluid.mobility(axis)[1:], strict=True):
+        add_poiseuille_slopes(axis.sides, fluid.P, closeness, *by_eps, eps_by, slopes[W], slopes[E])
+
+
+def _add_by_gaps_and_densities(flow, fluid, axis, mobility, closeness):
+    """Add what changes beside that, where a mean is one of gaps, or of densities, too."""
+    gradient = (axis.at(fluid.P, SHIFT[E]) - axis.at(fluid.P, SHIFT[W])) * closeness
+    for node, slope in zip((W, E), mobility.by_gap, strict=False):
+        flow.by_H[node] -= gradient * slope
+    for node, slope in zip((W, E), mobility.by_rho, strict=False):
+        flow.by_P[node] -= gradient * slope * axis.at(fluid.drho_dP, SHIFT[node])
 
 
 def mobility_of_faces(fluid, axis, scheme):

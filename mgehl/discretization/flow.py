@@ -18,6 +18,11 @@ class Flow:
         self.by_P = {node: np.zeros(shape) for node in sorted(nodes)}
         self.by_H = {node: np.zeros(shape) for node in sorted(nodes)}
 
+    @property
+    def is_linearised(self):
+        """Whether it has derivatives."""
+        return bool(self.by_P)
+
     def close(self, is_open):
         """Nothing passes where `is_open` is False."""
         if is_open.all():
