@@ -35,7 +35,7 @@ START = "start"
 """In begun.npz the bytes of the fields.h5 of the run that this one was started from; before the names of
 its laws."""
 
-FORMAT = 14
+FORMAT = 15
 """Version of the files, up with every change of layout or name; those of another are not read."""
 
 

@@ -69,6 +69,7 @@ class Contradiction(Kept):
 class Past(Kept):
     """What the nodes went through, all (lines, nx): it decides what they may do next."""
 
+    just_torn: np.ndarray
     just_released: np.ndarray
     was_released: np.ndarray
     turns: np.ndarray
@@ -80,6 +81,7 @@ class Past(Kept):
     def none(cls, shape):
         """Of nodes that went through nothing yet."""
         return cls(
+            just_torn=np.zeros(shape, dtype=bool),
             just_released=np.zeros(shape, dtype=bool),
             was_released=np.zeros(shape, dtype=bool),
             turns=np.zeros(shape, dtype=np.int8),
@@ -126,7 +128,7 @@ class Partition:
         # Bodies that are torn apart leave an empty gap: a cavity, until fluid flows in.
         status[opened | apart] = CAVITATED
         state.filling[opened], state.filling[apart] = 1.0, 0.0
-        self.past.just_released = apart
+        self.past.just_torn, self.past.just_released = opened, apart
         self.past.was_released |= apart
         changes.cavitated += self._grid.count(opened)
         changes.released += self._grid.count(apart)
@@ -168,8 +170,11 @@ class Partition:
         state.p = np.where(contact, np.maximum(state.p, self._tears_at), state.P)
 
     def fill(self, state, changes, in_turn=False):
-        """Cavities whose content is more than the gap holds become film; return how many."""
+        """Cavities whose content is more than the gap holds become film; return how many. In turn, what has
+        just been torn stays a cavity for a step: film without pressure may be torn by each."""
         filled = overflows(state) & self._contact_law.takes_fluid(state.H)
+        if in_turn:
+            filled &= ~self.past.just_torn
         filled = self._that_change(filled, state.filling, in_turn)
         state.status[filled] = LUBRICATED
         count = self._grid.count(filled)

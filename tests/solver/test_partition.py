@@ -235,6 +235,20 @@ def test_a_node_that_its_flow_would_lift_is_not_solved_apart(paper_contact, solv
     assert outcome.converged and outcome.cycles[-1].step <= 9
 
 
+@pytest.mark.parametrize("in_turn, stays", [(True, True), (False, False)])
+def test_what_is_torn_stays_a_cavity_for_a_step_where_sets_change_in_turn(
+    make_partition, state, in_turn, stays
+):
+    """A soft line's last film node was filled and torn by each of 400 steps, which led nowhere."""
+    partition = make_partition()
+    state.P[NODE] = -0.1
+    changed_by(partial(partition.cut_tension, in_turn=in_turn), state, cavitated=1)
+    state.filling[NODE] = 1.2
+    changed_by(partial(partition.fill, in_turn=in_turn), state, filled=0 if stays else 1)
+    changed_by(partial(partition.cut_tension, in_turn=in_turn), state)
+    changed_by(partial(partition.fill, in_turn=in_turn), state, filled=1 if stays else 0)
+
+
 @pytest.mark.parametrize("in_turn", [False, True])
 @pytest.mark.parametrize(
     "rule, told, new",
