@@ -198,8 +198,8 @@ def _set_anew(tables, settings):
 
 
 def _left_alone(tables, given):
-    """Nested numbers that words gave which what is `given` overrules: an oil's viscosity goes where one is
-    set, and its pressure_viscosity stays."""
+    """Numbers, nested, that follow from words which are overruled by what is `given`. Where a viscosity is
+    set over an oil, the oil goes, and its pressure_viscosity stays."""
     found = choices(tables)
     # A law beside a viscosity means something when the oil has gone, and not yet.
     others = {

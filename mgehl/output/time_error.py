@@ -21,7 +21,7 @@ PRESSURE = "max_pressure_GPa"
 14 of 16 bands that were too narrow stood there."""
 
 OF_FILMS = "central_film_nm", "minimum_film_nm"
-"""Columns that of smooth bodies have no band where the inlet has less than a cell, as steady ones."""
+"""Columns without bands where the inlet of smooth bodies has less than a cell: no steady film has one."""
 
 SHARES = "load_on_contact", "load_on_solids"
 """Columns that are parts of the load."""

@@ -6,7 +6,7 @@ H_th, leaves when P < 0; one that leaves its faces open leaves when p > P, too.
 All whose sign is wrong change at once; where that goes in a circle, neighbours in turn: a node that is torn
 or fills takes away what asked the next one to [block principal pivoting, Judice and Pires 1994]. Those that
 wait keep what the step gave them, a negative pressure or more than the gap holds: what is cut lifts the
-bodies, and throws thin films beside it.
+bodies, and throws thin films beside it. What has just been torn stays a cavity for a step.
 """
 
 from dataclasses import dataclass
@@ -171,7 +171,7 @@ class Partition:
 
     def fill(self, state, changes, in_turn=False):
         """Cavities whose content is more than the gap holds become film; return how many. In turn, what has
-        just been torn stays a cavity for a step: film without pressure may be torn by each."""
+        just been torn does not: a node that is filled before and torn by every step would never settle."""
         filled = overflows(state) & self._contact_law.takes_fluid(state.H)
         if in_turn:
             filled &= ~self.past.just_torn
