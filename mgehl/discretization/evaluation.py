@@ -71,7 +71,7 @@ class Evaluation:
 
     def forget(self):
         """Drop what was found of the faces; it is found again when it is asked for."""
-        for name in ("mobilities", "flows", "conductances", "conductance", "source"):
+        for name in ("mobilities", "flows", "conductances", "source"):
             self.__dict__.pop(name, None)
 
     def forget_fluid(self):
@@ -139,15 +139,6 @@ class Evaluation:
             lines, nx = own(self.P).shape
             found.append(np.zeros((lines + 1, nx)))
         return found
-
-    @cached_property
-    def conductance(self):
-        """Sum over the faces of every node, (lines, nx)."""
-        along, across = self.conductances
-        total = across[:-1] + across[1:]
-        total[:, 1:] += along
-        total[:, :-1] += along
-        return total
 
     @cached_property
     def source(self):

@@ -149,16 +149,6 @@ def flow_sources(inflow, P, along, across, source):
 
 
 @compiled()
-def lifted_by_less(K00, part, source, H, conductance, found):
-    """Where the pressure source/conductance would lift the gap of its node by less than a `part` of H. All
-    (lines, nx); K00 is a node's influence on itself."""
-    lines, nx = found.shape
-    for j in range(lines):
-        for i in range(nx):
-            found[j, i] = K00 * abs(source[j, i]) <= part * H[j, i] * conductance[j, i]
-
-
-@compiled()
 def relax_cavitation(first, w, film, movable, source, conductances, carried, passes):
     """Solve the flow balance by `w`, ghosted: pressure of film, minus what is empty of a cavity; every
     other line from `first`. `source` is what flows into full gaps without the Poiseuille flow.

@@ -7,15 +7,11 @@ depends on P: flow balance, P >= 0 and fillings below 1 can be solved there at t
 import numpy as np
 
 from mgehl.discretization.axes import own
-from mgehl.discretization.kernels import lifted_by_less, relax_cavitation
+from mgehl.discretization.kernels import relax_cavitation
 from mgehl.discretization.status import CAVITATED, LUBRICATED, is_fluid
 
 WEAKLY_COUPLED = 10.0
 """A node is relaxed where its mobility/dX exceeds this multiple of its influence; 3 to 100 do as well."""
-
-LIFTED = 0.1
-"""Where the pressure that the inflow needs would lift the gap by more than this part of it, the node is
-left to Newton's steps, or gap and pressure take turns for ever. With 0.01 a fifth more work."""
 
 LOW = 0.1
 """Part of the largest pressure that a relaxed node has at the most: where fluid flows easily under all of
@@ -104,15 +100,7 @@ def weakly_coupled(problem, evaluation, status):
     return is_fluid(status) & (mobility > WEAKLY_COUPLED * problem.K00 * problem.grid.mesh.dX)
 
 
-def driven(problem, evaluation):
-    """Nodes where a pressure that carries the inflow away hardly lifts the gap: (lines, nx)."""
-    found = np.empty(evaluation.source.shape, dtype=bool)
-    lifted_by_less(problem.K00, LIFTED, evaluation.source, own(evaluation.H), evaluation.conductance, found)
-    return found
-
-
 def _relaxable(problem, evaluation, state):
     """Nodes of low pressure, where that hardly moves the gap."""
     movable = weakly_coupled(problem, evaluation, state.status)
-    movable &= state.P <= LOW * problem.grid.max(state.P, initial=0.0)
-    return movable & driven(problem, evaluation)
+    return movable & (state.P <= LOW * problem.grid.max(state.P, initial=0.0))

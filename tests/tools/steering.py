@@ -1,7 +1,7 @@
 """What a number that steers the solver is worth: cases by chance, with other values of it.
 
     python tests/tools/steering.py                                      all numbers, and what each is
-    python tests/tools/steering.py solver.cavitation.LIFTED 0.03 0.3    the present value beside others
+    python tests/tools/steering.py solver.cavitation.LOW 0.03 0.3       the present value beside others
         --study machine --cases 20 --nodes 129 --seed 7                 of these cases
 
 Numbers are those that a module of the solver names in capitals. Judge on a seed that chose no number.
