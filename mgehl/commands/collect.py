@@ -33,7 +33,7 @@ def execute(options):
     except (ValueError, KeyError) as error:
         raise OutputError(f"a file of these runs is damaged: {error}") from None
     rows = with_bands(rows)
-    columns = named or list(rows[0])
+    columns = named or [column for column in rows[0] if any(row[column] for row in rows)]
     unknown = [column for column in columns if column not in rows[0]]
     if unknown:
         raise UserError(f"--columns {unknown[0]}: known are {', '.join(rows[0])}, and keys (mgehl keys)")

@@ -201,27 +201,32 @@ def interpolated(problem, start, frame):
     P over p_h is bilinear in X and Y, those of each load's own Hertz contact, and zero outside of what was
     solved. A node is in contact where most of its surroundings were.
     """
-    grid, mesh, contact = problem.grid, problem.grid.mesh, problem.contact
-    stood, before = start.contact, start.at_the_end
-    P = p = filling = status = None
-    if grid.comm.rank == 0:
-        old = start.mesh.in_frame(frame)
-        # The units of a run in time are those of its first load.
-        wider = stood.x_scale / before.x_scale
-        old = _stretched(old, wider, wider)
-        pressure = stood.pressure_scale / before.pressure_scale
-        in_contact = frame.array((start.fields.status == CONTACT).astype(float))
-        P = pressure * _onto(mesh, old, frame.array(start.fields.P))
-        p = pressure * _onto(mesh, old, frame.array(start.fields.fluid_pressure))
-        filling = 1.0 - _onto(mesh, old, 1.0 - frame.array(start.fields.full_part))  # full outside
-        film = np.where((P > contact.tears_at) | (not problem.scheme.cavitation), LUBRICATED, CAVITATED)
-        touching = (_onto(mesh, old, in_contact) > 0.5) & problem.scheme.contact_law.has_contact
-        status = np.where(touching, CONTACT, film).astype(np.int8)
+    grid, contact, stood, before = problem.grid, problem.contact, start.contact, start.at_the_end
+    whole = _laid_on(problem, start, frame) if grid.comm.rank == 0 else [None] * 4
+    P, p, filling, status = (grid.scatter(each) for each in whole)
     # Of H0 the dry approach is the new contact's; what lies between the bodies is as thick as before, in m.
     between = grid.comm.bcast(start.H0) * stood.film_scale + before.approach * before.film_scale
     H0 = between / contact.film_scale - contact.approach
-    P, p, filling, status = (grid.scatter(each) for each in (P, p, filling, status))
     return problem.state(P, H0, status, p, filling)
+
+
+def _laid_on(problem, start, frame):
+    """P, p, fillings and status of a `Solution` at the nodes of this problem's whole grid."""
+    mesh, contact, fields, before = problem.grid.mesh, problem.contact, start.fields, start.at_the_end
+    # The units of a run in time are those of its first load.
+    wider = start.contact.x_scale / before.x_scale
+    higher = start.contact.pressure_scale / before.pressure_scale
+    old = _stretched(start.mesh.in_frame(frame), wider, wider)
+
+    def laid(values):
+        return _onto(mesh, old, frame.array(values))
+
+    P, p = higher * laid(fields.P), higher * laid(fields.fluid_pressure)
+    filling = 1.0 - laid(1.0 - fields.full_part)  # full outside
+    film = np.where((P > contact.tears_at) | (not problem.scheme.cavitation), LUBRICATED, CAVITATED)
+    in_contact = laid((fields.status == CONTACT).astype(float)) > 0.5
+    touching = in_contact & problem.scheme.contact_law.has_contact
+    return P, p, filling, np.where(touching, CONTACT, film).astype(np.int8)
 
 
 def begun_in_time(problem, start, frame):

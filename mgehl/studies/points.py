@@ -75,14 +75,23 @@ def first_of(text):
 def _values(config, key, text):
     """The values that a text names."""
     told = f'--over {key}="{text}"'
-    if ".." not in text:
-        items = [_ITEM.fullmatch(item) for item in text.split(",")]
-        if not all(items):
-            raise ConfigError(f'{told}: must be as "50,100,200 N" or "50..200 N:4"')
-        units = [item[2] for item in items]
-        if any(units[:-1]) and not all(units):
-            raise ConfigError(f"{told}: give each number its unit, or all of them one at the end")
-        return _read(config, key, [_word(item[1], item[2] or units[-1]) for item in items])
+    found = _of_range if ".." in text else _of_list
+    return found(config, key, text, told)
+
+
+def _of_list(config, key, text, told):
+    """Those of "50,100,200 N"; messages begin with what was `told`."""
+    items = [_ITEM.fullmatch(item) for item in text.split(",")]
+    if not all(items):
+        raise ConfigError(f'{told}: must be as "50,100,200 N" or "50..200 N:4"')
+    units = [item[2] for item in items]
+    if any(units[:-1]) and not all(units):
+        raise ConfigError(f"{told}: give each number its unit, or all of them one at the end")
+    return _read(config, key, [_word(item[1], item[2] or units[-1]) for item in items])
+
+
+def _of_range(config, key, text, told):
+    """Those of "1e-4..1 m/s:20"; those between the ends have six digits."""
     match = _RANGE.fullmatch(text.strip())
     if not match:
         raise ConfigError(f'{told}: must be as "1e-4..1 m/s:20" or "log(1e-4..1 m/s:20)"')

@@ -60,16 +60,8 @@ def curves(runs, key, names=()):
     Bands are bars; a point without a band that others of its kind have is hollow: it is the grid's. Raises
     UserError where there is nothing to draw.
     """
-    x = [run.value(key) for run in runs]
-    if any(isinstance(each, bool) or not isinstance(each, int | float) for each in x):
-        raise UserError(f"--against {key}: has no number in each of these runs")
-    if len(set(x)) < 2:
-        raise UserError(f"--against {key}: is {x[0]:g} in all of these runs")
+    panels = _panels(runs, key)
     groups = _groups(runs, key, names)
-    panels = {label: _there(runs, panel) for label, panel in PANELS.items()}
-    panels = {label: panel for label, panel in panels.items() if panel}
-    if not panels:
-        raise UserError(f"--against {key}: none of these runs has an answer to draw")
     rows = (len(panels) + 1) // 2
     figure, axes = subplots(rows, min(2, len(panels)), size=(10.5, 1.0 + 3.4 * rows), squeeze=False)
     for axis, (label, panel) in zip(axes.flat, panels.items(), strict=False):
@@ -77,14 +69,33 @@ def curves(runs, key, names=()):
         shade = _shade_mixed(axis, runs, key, "" if len(groups) == 1 else ", on some of the curves")
     for axis in axes.flat[len(panels) :]:
         axis.remove()
-    looks = [(name, group.colour) for name, group in groups.items()] if len(groups) > 1 else []
-    handles = [axes.flat[0].plot([], [], color=c, label=name)[0] for name, c in looks]
-    if handles := handles + [shade] * bool(shade):
+    if handles := _handles(axes.flat[0], groups) + [shade] * bool(shade):
         legend_under_all(figure, handles)
     failed = sum(not run.settled for run in runs)
     note = f", {failed} without an answer (ticks above)" if failed else ""
     figure.suptitle(f"{len(runs)} runs against {key}{note}")
     return figure
+
+
+def _panels(runs, key):
+    """{label: quantities} of the panels that have something to show. Raises UserError where none has."""
+    x = [run.value(key) for run in runs]
+    if any(isinstance(each, bool) or not isinstance(each, int | float) for each in x):
+        raise UserError(f"--against {key}: has no number in each of these runs")
+    if len(set(x)) < 2:
+        raise UserError(f"--against {key}: is {x[0]:g} in all of these runs")
+    panels = {label: _there(runs, panel) for label, panel in PANELS.items()}
+    panels = {label: panel for label, panel in panels.items() if panel}
+    if not panels:
+        raise UserError(f"--against {key}: none of these runs has an answer to draw")
+    return panels
+
+
+def _handles(axis, groups):
+    """Of the groups' colours, for a legend; none of a single group."""
+    if len(groups) == 1:
+        return []
+    return [axis.plot([], [], color=each.colour, label=name)[0] for name, each in groups.items()]
 
 
 def _draw_panel(axis, runs, groups, key, label, panel):
