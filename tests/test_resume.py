@@ -17,7 +17,7 @@ from told import status_of
 
 from mgehl.config import load_config
 from mgehl.kinds import contact_from
-from mgehl.kinds import settled as settled_for
+from mgehl.kinds import with_domain
 from mgehl.output.checkpoint import begin_run, load, read_begun
 from mgehl.output.stored import read_run
 from mgehl.run import solve
@@ -61,7 +61,7 @@ def configuration(words):
 
 
 def settled(config):
-    return settled_for(config, contact_from(config))
+    return with_domain(config, contact_from(config))
 
 
 def start(arguments, ranks=1):

@@ -67,7 +67,7 @@ class Case:
 def case_of(config, contact=None):
     """The `Case` of a `Config`, as it is."""
     contact = contact or contact_from(config)
-    config = settled(config, contact)
+    config = with_domain(config, contact)
     return Case(config, contact, mesh_from(config, contact))
 
 
@@ -88,9 +88,9 @@ def mesh_from(config, contact):
     return config.kind.mesh(config, contact)
 
 
-def settled(config, contact):
+def with_domain(config, contact):
     """The `Config` with numbers in the place of "auto"."""
-    return config.kind.settled(config, contact)
+    return config.kind.with_domain(config, contact)
 
 
 def check_contact(config, contact):

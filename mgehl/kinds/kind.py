@@ -54,7 +54,7 @@ class Kind:
         """The contact, as the model has it."""
         raise NotImplementedError
 
-    def settled(self, config, contact):
+    def with_domain(self, config, contact):
         """The `Config` with numbers in the place of "auto"."""
         return config
 

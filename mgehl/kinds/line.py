@@ -39,7 +39,7 @@ class LineKind(LoadedKind):
 
     def mesh(self, config, contact):
         """A single line of nodes."""
-        grid = self.settled(config, contact).grid
+        grid = self.with_domain(config, contact).grid
         return Mesh(grid.nodes, 1, grid.x, (0.0, 0.0))
 
     def size(self, config, contact):

@@ -59,7 +59,7 @@ class LoadedKind(Kind):
         """The contact, of what all kinds have in common and its own keys."""
         raise NotImplementedError
 
-    def settled(self, config, contact):
+    def with_domain(self, config, contact):
         """With numbers where the domain is "auto"."""
         names = [name for name in ("x" if contact.is_line else "xy") if getattr(config.grid, name) == AUTO]
         if not names:
@@ -98,7 +98,7 @@ class LoadedKind(Kind):
         if contact.surface is not None:
             surface.check_known(config, contact)
         check_factor(config, heaviest)
-        config = self.settled(config, contact)
+        config = self.with_domain(config, contact)
         if contact.surface is not None:
             surface.check_surfaces(config, contact, self.mesh(config, contact))
         self.check_fluid(config.grid, contact)

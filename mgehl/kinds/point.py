@@ -105,7 +105,7 @@ class PointKind(LoadedKind):
 
     def mesh(self, config, contact):
         """A square of nodes over the ellipse."""
-        grid = self.settled(config, contact).grid
+        grid = self.with_domain(config, contact).grid
         return Mesh(grid.nodes, grid.nodes, grid.x, grid.y, contact.k_e)
 
     def check(self, config, contact):

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from mgehl.config_value import AUTO
-from mgehl.kinds import settled
+from mgehl.kinds import with_domain
 from mgehl.kinds.heat import heat_words
 from mgehl.kinds.loaded import lambda_words
 from mgehl.output import surface
@@ -78,7 +78,7 @@ def _of_domain(solution):
         return
     names = "x" if solution.contact.is_line else "xy"
     open_grid = replace(config.grid, **dict.fromkeys(names, AUTO))
-    auto = settled(replace(config, grid=open_grid), solution.contact).grid
+    auto = with_domain(replace(config, grid=open_grid), solution.contact).grid
     ends = {name: getattr(config.grid, name) for name in names}
     if any(low > getattr(auto, name)[0] + JUST or high < getattr(auto, name)[1] - JUST
            for name, (low, high) in ends.items()):  # fmt: skip

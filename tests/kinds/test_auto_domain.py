@@ -6,7 +6,7 @@ from mpi4py import MPI
 
 from mgehl.config import load_config
 from mgehl.errors import ConfigError
-from mgehl.kinds import check_contact, checked_case, contact_from, mesh_from, settled
+from mgehl.kinds import check_contact, checked_case, contact_from, mesh_from, with_domain
 from mgehl.model.peaks import reach_of_peaks
 from mgehl.model.surface.surface import Surface
 from mgehl.output.resolution import resolution
@@ -38,7 +38,8 @@ def test_a_load_that_grows_has_a_domain_for_its_largest(tmp_path):
     grows = ["time.end=1", f"contact.load={tmp_path / 'load.csv'}", "motion.speed=0.5"]
     config, contact = loaded(*grows)
     _, last = loaded("contact.load=1000", "motion.speed=0.5")
-    first, grid = settled(*loaded("contact.load=1", "motion.speed=0.5")).grid, settled(config, contact).grid
+    first = with_domain(*loaded("contact.load=1", "motion.speed=0.5")).grid
+    grid = with_domain(config, contact).grid
     assert contact.load == 1.0 and first.x[1] < 10.0 < grid.x[1] and grid.x[0] <= first.x[0]
     check_contact(config, contact)
     check_contact(*loaded(*grows, "motion.angle=30"))
@@ -51,7 +52,7 @@ def test_a_load_that_grows_has_a_domain_for_its_largest(tmp_path):
 def test_a_motion_that_turns_has_a_domain_for_each_of_its_directions(tmp_path):
     (tmp_path / "angle.csv").write_text("0,0\n1,90\n")
     turns = ["time.end=1", f"motion.angle={tmp_path / 'angle.csv'}", "motion.speed=0.5"]
-    grid, first = settled(*loaded(*turns)).grid, settled(*loaded("motion.speed=0.5")).grid
+    grid, first = with_domain(*loaded(*turns)).grid, with_domain(*loaded("motion.speed=0.5")).grid
     assert grid.x == grid.y and grid.x[0] <= first.x[0] and grid.y[1] >= first.y[1]
     check_contact(*loaded(*turns))
     short = ["grid.x=[-4, 3]", "grid.y=[-1.5, 1.5]"]
@@ -76,7 +77,7 @@ LIGHT_AND_ROUGH = [
 def test_peaks_that_touch_outside_the_smooth_contact_lie_within(more):
     """A domain for smooth bodies cut them off: the run said so, and told the user to take "auto"."""
     config, contact = loaded(*LIGHT_AND_ROUGH, *more)
-    (X, Y), grid = reach_of_peaks(contact, 0.0), settled(config, contact).grid
+    (X, Y), grid = reach_of_peaks(contact, 0.0), with_domain(config, contact).grid
     assert X > 1.5 and min(-grid.x[0], grid.x[1]) > X + 0.2 and min(-grid.y[0], grid.y[1]) > Y + 0.2
     assert solve(config, MPI.COMM_SELF).result.converged
 
@@ -87,7 +88,7 @@ def test_a_domain_in_numbers_does_not_ask_for_heights():
         numbers = ["grid.x=[-2, 2]", "grid.y=[-2, 2]", f"discretization.contact_model={model}"]
         config, contact = loaded("motion.speed=1", *numbers)
         contact = replace(contact, surface=Unreadable())
-        assert settled(config, contact) is config
+        assert with_domain(config, contact) is config
 
 
 class Unreadable(Surface):
@@ -98,4 +99,4 @@ class Unreadable(Surface):
 def test_a_load_too_light_for_any_domain_is_told_so():
     with pytest.raises(ConfigError, match=r"grid.x: the inlet .* no domain goes beyond 1000"):
         config, contact = loaded("contact.load=1 mN", "motion.speed=0.5")
-        check_contact(settled(config, contact), contact)
+        check_contact(with_domain(config, contact), contact)

@@ -4,7 +4,7 @@ import pytest
 from made_solution import make_result
 
 from mgehl.config import load_config
-from mgehl.kinds import contact_from, settled
+from mgehl.kinds import contact_from, with_domain
 from mgehl.output.advice import MOST, what_next
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import NOT_SEEN
@@ -15,7 +15,7 @@ def advice(settings=(), **changes):
     """Of a run with these settings that did not converge."""
     config = load_config(settings=["grid.nodes=65", *settings])
     contact = contact_from(config)
-    config = settled(config, contact)
+    config = with_domain(config, contact)
     result = make_result(**({"converged": False} | changes))
     return what_next(Solution(config, contact, None, None, [], result))
 
