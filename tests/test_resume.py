@@ -16,8 +16,7 @@ from processes import MGEHL, ended, own_environment
 from told import status_of
 
 from mgehl.config import load_config
-from mgehl.kinds import contact_from
-from mgehl.kinds import with_domain
+from mgehl.kinds import contact_from, with_domain
 from mgehl.output.checkpoint import begin_run, load, read_begun
 from mgehl.output.stored import read_run
 from mgehl.run import solve
