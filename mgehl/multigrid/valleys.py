@@ -14,8 +14,9 @@ DRIVEN = 30.0
 """Mobility/dX over a node's own influence from which on it is relaxed along Y, too: elsewhere it is the gap
 that moves, along X alone. With 5 and 150 about the same work."""
 
-PATIENCE = 30
-"""Relaxations of one system by lines; then nearby nodes are solved at once, by an LU as dear as 15."""
+PATIENCE = 15
+"""Relaxations of one system by lines; then nearby nodes are solved at once, by an LU as dear as 15: who pays
+no more for the one than the other would have cost pays at most twice what was needed."""
 
 MOST_AT_ONCE = 50
 """Relaxations of one linear system with nearby nodes at once; then it is finished by lines, and so are all
