@@ -11,7 +11,7 @@ from mgehl.discretization.fluid import fluid_state
 from mgehl.discretization.kernels import flow_sources
 from mgehl.discretization.status import CAVITATED, CONTACT
 
-PARTS = "P", "H", "status", "mesh", "contact", "scheme", "fluid", "filling", "storage"
+PARTS = "P", "H", "status", "mesh", "contact", "scheme", "fluid", "filling", "storage", "gaps"
 """What an `Evaluation` is made of."""
 
 
@@ -20,12 +20,16 @@ class Evaluation:
     once. It holds what the state was when it was made: one that has changed is evaluated anew, or its
     evaluation is told of the new pressure."""
 
-    def __init__(self, P, H, status, mesh, contact, scheme, fluid=None, filling=None, storage=None):
+    def __init__(
+        self, P, H, status, mesh, contact, scheme, fluid=None, filling=None, storage=None, gaps=None
+    ):  # fmt: skip
         self.P, self.H, self.status, self.filling = P, H, status, filling
         self.storage = storage
         """The `Storage` of a time step, which the balance of every node has; None of what is steady."""
         self.mesh, self.contact, self.scheme = mesh, contact, scheme
         self.axes = axes_of(mesh, scheme.motion)
+        self.gaps = gaps
+        """The `FaceGap` along each axis, H being 1; None where the gap is that of nodes."""
         self.fluid = self._evaluated_fluid() if fluid is None else fluid
 
     def _evaluated_fluid(self):
@@ -59,6 +63,8 @@ class Evaluation:
         part = Evaluation(*state, self.mesh, self.contact, self.scheme, self.fluid.of(ghosted))
         of_axes = zip(self.axes, self.mobilities, strict=True)
         part.mobilities = [mobility.of_lines(axis, lines) for axis, mobility in of_axes]
+        if self.gaps is not None:
+            part.gaps = [gap.of_lines(axis, lines) for axis, gap in zip(self.axes, self.gaps, strict=True)]
         return part
 
     def with_mobility(self, eps):
@@ -88,6 +94,8 @@ class Evaluation:
     def mobilities(self):
         """`FaceMobility` of the faces along each axis, as much as counts in a time step."""
         found = [mobility_of_faces(self.fluid, axis, self.scheme) for axis in self.axes]
+        if self.gaps is not None:
+            found = [each.times(gap.cubed) for each, gap in zip(found, self.gaps, strict=True)]
         if self.storage is None or self.storage.weights is None:
             return found
         return [each.times(weight) for each, weight in zip(found, self.storage.weights, strict=False)]
@@ -102,8 +110,12 @@ class Evaluation:
         return self._flows(linearised=True)
 
     def _flows(self, linearised=False):
-        state = self.fluid, self.status
-        return [flows(*state, axis, self.scheme, mobility, linearised) for axis, mobility in self._along()]
+        state, each = (self.fluid, self.status), zip(self._along(), self._gaps, strict=True)
+        return [flows(*state, axis, self.scheme, mobility, linearised, gap) for (axis, mobility), gap in each]
+
+    @property
+    def _gaps(self):
+        return self.gaps or [None] * len(self.axes)
 
     def _along(self):
         """Each axis with the `FaceMobility` along it."""
@@ -114,8 +126,8 @@ class Evaluation:
         `conductances`: (lines, nx - 1), and (lines + 1, nx), which is zero on a single line."""
         lines, nx = own(self.P).shape
         found = np.zeros((lines, nx - 1)), np.zeros((lines + 1, nx))
-        for rate, axis in zip(found, self.axes, strict=False):
-            rate[:] = carried(self.fluid, self.status, axis, self.scheme) / axis.cell
+        for rate, axis, gap in zip(found, self.axes, self._gaps, strict=False):
+            rate[:] = carried(self.fluid, self.status, axis, self.scheme, gap) / axis.cell
         return found
 
     @cached_property

@@ -15,11 +15,11 @@ from mgehl.discretization.kernels import add_poiseuille, add_poiseuille_slopes
 from mgehl.discretization.status import WALL, is_solid, open_faces
 
 
-def flows(fluid, status, axis, scheme, mobility, linearised=False):
+def flows(fluid, status, axis, scheme, mobility, linearised=False, gap=None):
     """Flows (leaving W, entering E) through the faces along an axis: couette rho H - eps dP/distance.
 
     `fluid` and `status` are ghosted, `mobility` is the `FaceMobility`; the two are one object for a
-    conservative scheme. Derivatives only if they are to be `linearised`.
+    conservative scheme. Derivatives only if they are to be `linearised`. A `FaceGap` takes the place of H.
     """
     couette = scheme.couette_flow
     solid = is_solid(status, scheme.contact_law.closes_faces)
@@ -35,7 +35,7 @@ def flows(fluid, status, axis, scheme, mobility, linearised=False):
         if untreated:
             found.close(open_faces(solid, axis))
         if axis.couette:
-            _add_carried(found, terms, couette, fluid, stops, axis)
+            _add_carried(found, terms, couette, fluid, stops, axis, gap)
         found.close(is_open)
         return found
 
@@ -44,31 +44,34 @@ def flows(fluid, status, axis, scheme, mobility, linearised=False):
     return leaving, leaving if conservative else flow(couette.entering)
 
 
-def _add_carried(flow, terms, couette, fluid, stops, axis):
+def _add_carried(flow, terms, couette, fluid, stops, axis, gap):
     """Add the Couette flow by `terms` of a `CouetteScheme`: that of full gaps times the filling of the node
     it comes from. A full cavity loses what a film would, by every scheme."""
-    if fluid.torn is None:
+    if fluid.torn is None and gap is None:
         add_couette(flow, terms, couette, fluid, stops, axis)
         return
     of_full = Flow(flow.value.shape, flow.by_P)
     add_couette(of_full, terms, couette, fluid, stops, axis)
+    if gap is not None:
+        of_full.scale(gap.carried)
+    if fluid.torn is None:
+        flow.add(of_full)
+        return
     upstream = W if axis.couette >= 0.0 else E  # against the axis: a wedge's plate
     filling, torn = (axis.at(part, SHIFT[upstream]) for part in (fluid.filling, fluid.torn))
-    flow.value += filling * of_full.value
-    for node, by_P in of_full.by_P.items():
-        flow.by_P[node] += filling * by_P
-    for node, by_H in of_full.by_H.items():
-        flow.by_H[node] += filling * by_H
+    by_filling = of_full.value * torn
+    of_full.scale(filling)
+    flow.add(of_full)
     if flow.by_P:
-        flow.by_P[upstream] += of_full.value * torn
+        flow.by_P[upstream] += by_filling
 
 
-def carried(fluid, status, axis, scheme):
-    """What leaves W through the faces along an axis with the surfaces, were all cavities full. `fluid` and
-    `status` are ghosted; the mobility does not matter."""
+def carried(fluid, status, axis, scheme, gap=None):
+    """What leaves W through the faces along an axis with the surfaces, were all cavities full; arguments as
+    of `flows`, and the mobility does not matter."""
     whole = replace(fluid, torn=None, filling=None, P=np.zeros(fluid.P.shape))
     still = FaceMobility(np.zeros(axis.of_whole(status)), (0.0, 0.0))
-    return flows(whole, status, axis, scheme, still)[0].value
+    return flows(whole, status, axis, scheme, still, gap=gap)[0].value
 
 
 def nodes_of_flows(axis, scheme):

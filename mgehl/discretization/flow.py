@@ -23,9 +23,22 @@ class Flow:
         """Whether it has derivatives."""
         return bool(self.by_P)
 
+    @property
+    def _arrays(self):
+        return (self.value, *self.by_P.values(), *self.by_H.values())
+
+    def scale(self, factor):
+        """Multiply it by a `factor` of each face."""
+        for array in self._arrays:
+            array *= factor
+
+    def add(self, other):
+        """Add another one of the same nodes."""
+        for array, part in zip(self._arrays, other._arrays, strict=True):
+            array += part
+
     def close(self, is_open):
         """Nothing passes where `is_open` is False."""
         if is_open.all():
             return
-        for array in (self.value, *self.by_P.values(), *self.by_H.values()):
-            array *= is_open
+        self.scale(is_open)

@@ -15,7 +15,7 @@ MM = 1e-3
 """Metres per unit of X and Y."""
 
 ON_EDGE = 1e-9
-"""A node this close to a pillar's edge, in mm, is on it, and solid."""
+"""A node this close to a pillar's edge, in mm, is on it, and solid; so is a pocket's edge on the pad's."""
 
 
 def _square(X, Y, size):
@@ -44,11 +44,27 @@ class Pocket:
     width: float
     """Across the motion, its middle at y = 0."""
 
-    def share(self, X, Y, dX, dY):
-        """The part of the cells dX by dY around X (1, nx) and Y (lines, 1), in mm, that it lies over. A
-        node's gap is the mean of its cell: wherever the edges lie between nodes, the volume is the same."""
-        half = 0.5 * self.width / MM
-        return _covered(X, dX, self.along[0] / MM, self.along[1] / MM) * _covered(Y, dY, -half, half)
+    def shares(self, X, Y, dX, dY, pad):
+        """The parts along X and along Y of the cells dX by dY around X (1, nx) and Y (lines, 1), in mm,
+        that it lies over.
+
+        Where it reaches the edge of the `pad`, ends (along, across) in m, it goes on beyond: a cell there
+        lies half outside, and what enters or leaves does so by the whole of its depth.
+        """
+        across = -0.5 * self.width, 0.5 * self.width
+        return [
+            _covered(at, cell, *_beyond(own, edges))
+            for at, cell, own, edges in zip((X, Y), (dX, dY), (self.along, across), pad, strict=True)
+        ]
+
+
+def _beyond(ends, edges):
+    """The ends of a pocket in mm, those at or beyond the pad's `edges` at infinity."""
+    first, last = ends[0] / MM, ends[1] / MM
+    return (
+        -np.inf if first <= edges[0] / MM + ON_EDGE else first,
+        np.inf if last >= edges[1] / MM - ON_EDGE else last,
+    )
 
 
 def _covered(X, cell, first, last):
@@ -164,11 +180,33 @@ class WedgeBearing:
             return np.abs(X)
         return (self.level + self.slope * MM * self._against(X)) / self.film_scale
 
-    def recess(self, X, Y, dX, dY):
-        """What a pocket adds to H: the mean over the cells dX by dY around X (1, nx) and Y (lines, 1)."""
+    def mean_gap(self, X, Y, dX, dY):
+        """H with its pocket: the mean over the cells dX by dY around X (1, nx) and Y (lines, 1)."""
         if self.pocket is None:
-            return 0.0
-        return self.pocket.depth / self.film_scale * self.pocket.share(self._against(X), Y, dX, dY)
+            return self.gap(X)
+        along, across = self._shares(X, Y, dX, dY)
+        return self.gap(X) + self._depth * (along * across)
+
+    def gap_between(self, X, Y, dX, dY, along):
+        """What a gap with a pocket carries and what is its cube, exact between nodes dX or dY apart
+        (`mgehl.discretization.face_gap`): those whose faces, in the middle, are at X and Y, `along` X or
+        not. Parts of a face beside each other are parallel, parts of the way one behind the other."""
+        share_x, share_y = self._shares(X, Y, dX, dY)
+        way, beside = (share_x, share_y) if along else (share_y, share_x)
+        pad = self.gap(X) + 0.0 * Y
+        deep = pad + self._depth
+        cubed = 1.0 / ((1.0 - way) / pad**3 + way / deep**3)
+        carried = cubed * ((1.0 - way) / pad**2 + way / deep**2)
+        return pad + beside * (carried - pad), pad**3 + beside * (cubed - pad**3)
+
+    @property
+    def _depth(self):
+        """Of the pocket, in units of H."""
+        return self.pocket.depth / self.film_scale
+
+    def _shares(self, X, Y, dX, dY):
+        pad = (self.exit, self.inlet), (-0.5 * self.width, 0.5 * self.width)
+        return self.pocket.shares(self._against(X), Y, dX, dY, pad)
 
     def solid(self, X, Y):
         """True where pad and plate are in contact; X (1, nx) and Y (lines, 1) or such."""

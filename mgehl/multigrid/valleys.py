@@ -15,8 +15,8 @@ DRIVEN = 30.0
 that moves, along X alone. With 5 and 150 about the same work."""
 
 PATIENCE = 15
-"""Relaxations of one system by lines; then nearby nodes are solved at once, by an LU as dear as 15: who pays
-no more for the one than the other would have cost pays at most twice what was needed."""
+"""Relaxations of one system by lines; then nearby nodes are solved at once, by an LU as dear as 15: at most
+twice what was needed is paid so."""
 
 MOST_AT_ONCE = 50
 """Relaxations of one linear system with nearby nodes at once; then it is finished by lines, and so are all

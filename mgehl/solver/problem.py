@@ -56,6 +56,8 @@ class Problem:
     """The `Storage` of the time step that is taken; None of what is steady."""
     K00 = 0.0
     """Deflection of a node by its own pressure: none in a rigid gap."""
+    gaps = None
+    """The `FaceGap` along each axis of a gap that is given between nodes, too."""
     heights = None
     """Heights of the bodies at the local nodes in m; None of smooth ones."""
 
@@ -70,9 +72,10 @@ class Problem:
     def evaluate(self, state):
         """The `Evaluation` of a state as it is now, its net inflow known  [Liu eq. 35]."""
         grid = self.grid
-        p, H, status = grid.halo(state.p), grid.halo(state.H), grid.halo_status(state.status)
+        p, status = grid.halo(state.p), grid.halo_status(state.status)
+        H = grid.halo(state.H) if self.gaps is None else np.ones(grid.ghosted_shape)
         filling = grid.halo(state.filling) if self.scheme.contact_law.has_contact else None
-        how = {"filling": filling, "storage": self.storage}
+        how = {"filling": filling, "storage": self.storage, "gaps": self.gaps}
         evaluation = Evaluation(p, H, status, grid.mesh, self.flowing, self.scheme, **how)
         _ = evaluation.inflow
         return evaluation

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mgehl.discretization.face_gap import FaceGap
 from mgehl.discretization.rows import GAP, PRESSURE
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.multigrid.assembled import AssembledSolver
@@ -17,13 +18,24 @@ class WedgeProblem(Problem):
         super().__init__(grid, bearing, scheme)
         if bearing.closed_sides:
             self.boundary[:, 1:-1] = False
+        if bearing.pocket:
+            self.gaps = [self._face_gap(axis) for axis in self.axes]
+
+    def _face_gap(self, axis):
+        """The `FaceGap` along an axis."""
+        X, Y, mesh = self.grid.X, self.grid.Y, self.grid.mesh
+        if axis.number:
+            X = 0.5 * (X[:, 1:] + X[:, :-1])
+        else:
+            Y = np.vstack([Y - 0.5 * mesh.dY, Y[-1:] + 0.5 * mesh.dY])
+        return FaceGap(*self.contact.gap_between(X, Y, mesh.dX, mesh.dY, along=bool(axis.number)))
 
     def first_guess(self):
         """The state at ambient pressure; solid nodes have no gap, and no pressure."""
         grid, bearing = self.grid, self.contact
         solid = np.broadcast_to(bearing.solid(grid.X, grid.Y), grid.shape)
         status = np.where(solid, CONTACT, np.where(self.boundary, BOUNDARY, LUBRICATED))
-        gap = bearing.gap(grid.X) + bearing.recess(grid.X, grid.Y, grid.mesh.dX, grid.mesh.dY)
+        gap = bearing.mean_gap(grid.X, grid.Y, grid.mesh.dX, grid.mesh.dY)
         H = np.where(solid, 0.0, np.broadcast_to(gap, grid.shape))
         return State(np.where(solid, 0.0, bearing.ambient), 0.0, H, status.astype(np.int8))
 
