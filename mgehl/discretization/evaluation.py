@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from mgehl.discretization.axes import HALO, axes_of, own
+from mgehl.discretization.face_gap import flows_past_edges
 from mgehl.discretization.faces import carried, conductances, flows, mobility_of_faces
 from mgehl.discretization.fluid import fluid_state
 from mgehl.discretization.kernels import flow_sources
@@ -110,12 +111,14 @@ class Evaluation:
         return self._flows(linearised=True)
 
     def _flows(self, linearised=False):
-        state, each = (self.fluid, self.status), zip(self._along(), self._gaps, strict=True)
-        return [flows(*state, axis, self.scheme, mobility, linearised, gap) for (axis, mobility), gap in each]
-
-    @property
-    def _gaps(self):
-        return self.gaps or [None] * len(self.axes)
+        state, of_axes = (self.fluid, self.status), list(self._along())
+        if self.gaps is None:
+            return [flows(*state, axis, self.scheme, mobility, linearised) for axis, mobility in of_axes]
+        each = zip(of_axes, self.gaps, strict=True)
+        return [
+            flows_past_edges(*state, axis, self.scheme, mobility, linearised, gap)
+            for (axis, mobility), gap in each
+        ]
 
     def _along(self):
         """Each axis with the `FaceMobility` along it."""
@@ -126,7 +129,7 @@ class Evaluation:
         `conductances`: (lines, nx - 1), and (lines + 1, nx), which is zero on a single line."""
         lines, nx = own(self.P).shape
         found = np.zeros((lines, nx - 1)), np.zeros((lines + 1, nx))
-        for rate, axis, gap in zip(found, self.axes, self._gaps, strict=False):
+        for rate, axis, gap in zip(found, self.axes, self.gaps or (None, None), strict=False):
             rate[:] = carried(self.fluid, self.status, axis, self.scheme, gap) / axis.cell
         return found
 

@@ -5,12 +5,17 @@ Between two nodes a distance d apart q = c h - (rho/(eta lambda)) h^3 dP/dx is t
     q = c `carried` - (rho/(eta lambda)) `cubed` (P_E - P_W)/d        [derived]
     cubed = d / int h^-3 dx,  carried = cubed int h^-2 dx / d
 
-The oil is differenced as elsewhere, in a gap of 1.
+The oil is differenced as elsewhere, in a gap of 1. At an edge between the nodes a film may tear. It lets
+through what it would up to there with the pressure of torn oil, P = 0, and that is less than q wherever q
+would need less pressure than that.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+
+from mgehl.discretization.faces import flows
+from mgehl.discretization.flow import SHIFT, E, W
 
 
 @dataclass(frozen=True)
@@ -19,7 +24,41 @@ class FaceGap:
 
     carried: np.ndarray
     cubed: np.ndarray
+    has_edge: np.ndarray | None = None
+    """Faces that an edge lies beside; None along an axis that nothing is carried along."""
+    to_edge: "FaceGap | None" = None
+    """That of the way from the node that oil is carried from to the edge."""
 
     def of_lines(self, axis, lines):
         """That of the faces of some `lines` of nodes (a slice)."""
-        return FaceGap(axis.of_lines(self.carried, lines), axis.of_lines(self.cubed, lines))
+        found = FaceGap(axis.of_lines(self.carried, lines), axis.of_lines(self.cubed, lines))
+        if self.to_edge is None:
+            return found
+        edges = {
+            "has_edge": axis.of_lines(self.has_edge, lines),
+            "to_edge": self.to_edge.of_lines(axis, lines),
+        }
+        return replace(found, **edges)
+
+
+def flows_past_edges(fluid, status, axis, scheme, mobility, linearised, gap):
+    """As `faces.flows`, `mobility` by the cube of a `FaceGap`, which may have edges where oil tears."""
+    found = flows(fluid, status, axis, scheme, mobility, linearised, gap)
+    if gap.to_edge is None or not scheme.cavitation:
+        return found
+    to_edge = mobility.times(gap.to_edge.cubed / gap.cubed)
+    torn = flows(fluid, status, axis, scheme, to_edge, linearised, gap.to_edge)
+    sense = 1.0 if axis.couette >= 0.0 else -1.0
+    for whole, ending in dict(zip(found, torn, strict=True)).items():  # both may be one
+        _end_at_the_edge(ending, fluid, axis, to_edge)
+        whole.replace(ending, gap.has_edge & (sense * ending.value < sense * whole.value))
+    return found
+
+
+def _end_at_the_edge(flow, fluid, axis, mobility):
+    """Let a flow be that to P = 0, whatever the pressure of the node behind the edge."""
+    behind, sign = (E, 1.0) if axis.couette >= 0.0 else (W, -1.0)
+    conductance = sign * mobility.value / axis.distance
+    flow.value += conductance * axis.at(fluid.P, SHIFT[behind])
+    if flow.is_linearised:
+        flow.by_P[behind] += conductance

@@ -37,6 +37,11 @@ class Flow:
         for array, part in zip(self._arrays, other._arrays, strict=True):
             array += part
 
+    def replace(self, other, where):
+        """Let another one take its place at some faces, a mask."""
+        for array, part in zip(self._arrays, other._arrays, strict=True):
+            array[where] = part[where]
+
     def close(self, is_open):
         """Nothing passes where `is_open` is False."""
         if is_open.all():

@@ -17,6 +17,9 @@ MM = 1e-3
 ON_EDGE = 1e-9
 """A node this close to a pillar's edge, in mm, is on it, and solid; so is a pocket's edge on the pad's."""
 
+SHORTEST = 1e-3
+"""Part of the way from node to node that one to an edge takes at the least."""
+
 
 def _square(X, Y, size):
     return np.maximum(np.abs(X), np.abs(Y)) <= 0.5 * size + ON_EDGE
@@ -198,6 +201,16 @@ class WedgeBearing:
         cubed = 1.0 / ((1.0 - way) / pad**3 + way / deep**3)
         carried = cubed * ((1.0 - way) / pad**2 + way / deep**2)
         return pad + beside * (carried - pad), pad**3 + beside * (cubed - pad**3)
+
+    def gap_to_edge(self, X, Y, dX, dY):
+        """The faces along X that an edge lies beside, and the same of the way to it from the node that the
+        plate comes from."""
+        (way, beside), before = self._shares(X, Y, dX, dY), X - 0.5 * dX * self.motion[0]
+        pad, is_deep = self.gap(X) + 0.0 * Y, self._shares(before, Y, ON_EDGE, dY)[0] > 0.5
+        gap, part = pad + is_deep * self._depth, np.where(is_deep, way, 1.0 - way)
+        has_edge = (way > 0.0) & (way < 1.0) & (beside > 0.0)
+        cubed = gap**3 / np.maximum(part, SHORTEST)
+        return has_edge, pad + beside * (gap - pad), pad**3 + beside * (cubed - pad**3)
 
     @property
     def _depth(self):

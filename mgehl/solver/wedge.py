@@ -23,12 +23,13 @@ class WedgeProblem(Problem):
 
     def _face_gap(self, axis):
         """The `FaceGap` along an axis."""
-        X, Y, mesh = self.grid.X, self.grid.Y, self.grid.mesh
-        if axis.number:
-            X = 0.5 * (X[:, 1:] + X[:, :-1])
-        else:
-            Y = np.vstack([Y - 0.5 * mesh.dY, Y[-1:] + 0.5 * mesh.dY])
-        return FaceGap(*self.contact.gap_between(X, Y, mesh.dX, mesh.dY, along=bool(axis.number)))
+        X, Y, bearing, cell = self.grid.X, self.grid.Y, self.contact, (self.grid.mesh.dX, self.grid.mesh.dY)
+        if not axis.number:
+            Y = np.vstack([Y - 0.5 * cell[1], Y[-1:] + 0.5 * cell[1]])
+            return FaceGap(*bearing.gap_between(X, Y, *cell, along=False))
+        X = 0.5 * (X[:, 1:] + X[:, :-1])
+        has_edge, *to_edge = bearing.gap_to_edge(X, Y, *cell)
+        return FaceGap(*bearing.gap_between(X, Y, *cell, along=True), has_edge, FaceGap(*to_edge))
 
     def first_guess(self):
         """The state at ambient pressure; solid nodes have no gap, and no pressure."""
