@@ -24,7 +24,7 @@ def solve_bearing(case, parts, comm, watch):
         rows = progress.wedge_rows(parts.mesh.nx, outcome.cycles)
         for row in rows:
             watch.speaker.row(row)
-        band = load_band(result, lambda: _load_on_coarser(case, comm, watch))
+        band = load_band(result, partial(_load_on_coarser, case, comm, watch))
         result = replace(result, **band, wall_s=time.perf_counter() - started)
         return solution_of(case, parts, problem, outcome.state, rows, result)
 
@@ -42,10 +42,10 @@ def _solved_bearing(parts, comm, watch):
         grid.destroy()
 
 
-def _load_on_coarser(case, comm, watch):
-    """(Nodes, load in N) of the same bearing on half as many nodes; the load is None where it has none
+def _load_on_coarser(case, comm, watch, by):
+    """(Nodes, load in N) of the same bearing `by` so many times coarser; the load is None where it has none
     there. Raises ConfigError where the grid is too coarse for it."""
-    nodes = (case.config.grid.nodes + 1) // 2
+    nodes = (case.config.grid.nodes - 1) // by + 1
     coarser = set_up(checked_case(case.config.with_({"grid.nodes": nodes})))
     with _solved_bearing(coarser, comm, watch) as (problem, outcome):
         result = summarise_wedge(problem, outcome, 0.0, {})

@@ -61,4 +61,5 @@ def _end_at_the_edge(flow, fluid, axis, mobility):
     conductance = sign * mobility.value / axis.distance
     flow.value += conductance * axis.at(fluid.P, SHIFT[behind])
     if flow.is_linearised:
-        flow.by_P[behind] += conductance
+        has_pressure = 1.0 if fluid.torn is None else ~axis.at(fluid.torn, SHIFT[behind])
+        flow.by_P[behind] += has_pressure * conductance

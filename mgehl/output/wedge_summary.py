@@ -1,5 +1,7 @@
 """The `Result` of a rigid bearing, its final state evaluated."""
 
+from contextlib import suppress
+
 import numpy as np
 
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, WALL
@@ -51,15 +53,23 @@ def summarise_wedge(problem, outcome, wall_s, versions):
 
 def load_band(result, solve_coarser):
     """The parts of a bearing's `Result` that say how well its load is known. The load is of first order
-    where a pillar or a pocket ends at nodes, and what ends there jumps by cells. `solve_coarser()` gives
-    (nodes, load in N) of every other node."""
+    where a pillar ends at nodes, and what ends there jumps by cells; a pocket's edges lie between nodes.
+    `solve_coarser(n)` gives (nodes, load in N) of every n-th node.
+
+    By chance a single difference may be small: what that to the grid after next leads to expect counts, too.
+    """
     if not result.converged:
         return {"load_band_how": "the run has not converged"}
     try:
-        nodes, load = solve_coarser()
+        nodes, load = solve_coarser(2)
     except ConfigError as error:
         return {"load_band_how": f"the next coarser grid is too coarse: {error}"}
     if load is None:
         return {"load_band_how": f"on {nodes} nodes, the next coarser grid, there is no answer"}
-    half_width = BY_CELLS * abs(result.load_N - load)
-    return {"load_band_N": half_width, "load_band_how": f"from the difference to {nodes} nodes"}
+    difference, how = abs(result.load_N - load), f"from the difference to {nodes} nodes"
+    with suppress(ConfigError):
+        after_next, coarsest = solve_coarser(4)
+        if coarsest is not None:
+            difference = max(difference, 0.5 * abs(load - coarsest))
+            how = f"from the differences to {nodes} and {after_next} nodes"
+    return {"load_band_N": BY_CELLS * difference, "load_band_how": how}
