@@ -65,7 +65,23 @@ POCKETED = replace(BEARING, pocket=Pocket(2e-6, (5e-3, 7e-3), 2e-3))
 def test_a_pocket_has_its_volume_wherever_its_edges_lie_between_nodes(shift):
     """2 mm by 2 mm by 2 um, of cells 0.1 mm by 0.04 mm."""
     X, Y = np.arange(4.0 + shift, 8.0, 0.1)[None, :], np.arange(-2.0 + shift, 2.0, 0.04)[:, None]
-    recess = POCKETED.recess(X, Y, 0.1, 0.04)
+    recess = POCKETED.mean_gap(X, Y, 0.1, 0.04) - BEARING.gap(X)
     assert recess.sum() * 0.1 * 0.04 == pytest.approx(4.0 * 2.0, rel=1e-12)
     assert recess.max() == pytest.approx(2.0, rel=1e-14) and recess.min() == 0.0
-    assert BEARING.recess(X, Y, 0.1, 0.04) == 0.0
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.02, 0.07])
+@pytest.mark.parametrize("along", [True, False])
+def test_a_gap_between_nodes_is_that_of_its_parts_one_behind_the_other(shift, along):
+    """carried and its cube by integrals of h^-2 and h^-3 from node to node, across edges and beside."""
+    X, Y = np.arange(4.0 + shift, 8.0, 0.1)[None, :], np.arange(-2.0 + shift, 2.0, 0.1)[:, None]
+    carried, cubed = POCKETED.gap_between(X, Y, 0.1, 0.1, along)
+    fine = (np.arange(1000) + 0.5) / 1000 - 0.5
+    for j, i in ((20, 5), (20, 10), (20, 20), (20, 30), (10, 15), (30, 25), (10, 10)):
+        x, y = X[0, i] + 0.1 * fine, Y[j, 0] + 0.1 * fine
+        deep = ((x > 5.0) & (x < 7.0))[None, :] & (np.abs(y) < 1.0)[:, None]
+        h = X[0, i] + 2.0 * deep  # the pad's own slope is left out within a cell
+        way = 1 if along else 0
+        cubes = 1.0 / (h**-3.0).mean(axis=way)
+        assert cubed[j, i] == pytest.approx(cubes.mean(), rel=3e-3)
+        assert carried[j, i] == pytest.approx((cubes * (h**-2.0).mean(axis=way)).mean(), rel=3e-3)

@@ -12,23 +12,26 @@ def of(nodes):
     return solved(PILLAR, {"grid": {"nodes": nodes}}).result
 
 
-def test_a_bearing_s_load_has_a_band_by_every_other_node():
+def test_a_bearing_s_load_has_a_band_by_coarser_grids():
     """The next finer grid's lies within: a square pillar's edges jump by cells."""
-    coarse, fine = of(65), of(129)
-    assert fine.load_band_N == pytest.approx(BY_CELLS * abs(fine.load_N - coarse.load_N))
-    assert abs(of(257).load_N - fine.load_N) < fine.load_band_N
-    assert " ± " in str(fine).splitlines()[1] and fine.load_band_how.endswith("to 65 nodes")
-    assert coarse.load_band_N is None and "too coarse: grid.nodes = 33" in coarse.load_band_how
+    coarsest, coarse, fine = (of(nodes) for nodes in (65, 129, 257))
+    differences = abs(coarse.load_N - coarsest.load_N), abs(fine.load_N - coarse.load_N)
+    assert coarse.load_band_N == pytest.approx(BY_CELLS * differences[0])
+    assert fine.load_band_N == pytest.approx(BY_CELLS * max(differences[1], 0.5 * differences[0]))
+    assert abs(fine.load_N - coarse.load_N) < coarse.load_band_N
+    assert " ± " in str(fine).splitlines()[1] and fine.load_band_how.endswith("to 129 and 65 nodes")
+    assert coarse.load_band_how.endswith("to 65 nodes")
+    assert coarsest.load_band_N is None and "too coarse: grid.nodes = 33" in coarsest.load_band_how
 
 
-def refuse():
+def refuse(_by):
     raise ConfigError("wedge.pillar_size = 1: has less than two cells")
 
 
 @pytest.mark.parametrize(
     "converged, solve, why",
     [(False, None, "has not converged"), (True, refuse, "two cells"),
-     (True, lambda: (65, None), "there is no answer")],
+     (True, lambda _by: (65, None), "there is no answer")],
 )  # fmt: skip
 def test_where_it_has_none_it_says_why(converged, solve, why):
     found = load_band(make_result(converged=converged, load_N=1.0), solve)

@@ -72,15 +72,20 @@ def test_the_reference_is_that_of_the_differential_equation():
     assert not np.any((found.p > 0.0) & (found.theta < 1.0)) and found.theta.min() > 0.7
 
 
-@pytest.mark.parametrize("couette, bound", [("3B", 1e-3), ("2C", 1.2e-3), ("1B", 5e-3)])
-def test_rupture_and_reformation_are_the_reference_s(couette, bound):
-    """Of the largest pressure, at the worst node: 0.077 % on 2049 nodes by 3B, and first order."""
-    errors = [difference(solution(nodes, couette), answer()) for nodes in (513, 2049)]
-    assert errors[1] < bound
-    assert 0.5 * order_of_errors(*errors) == pytest.approx(1.0, abs=0.4)
+@pytest.mark.parametrize("couette", ["3B", "2C"])
+def test_rupture_and_reformation_are_the_reference_s(couette):
+    """Of the largest pressure, at the worst node: 0.01 % on 129 nodes, and the reference's own 0.003 %."""
+    assert difference(solution(129, couette), answer()) < 1.2e-4
+    assert difference(solution(513, couette), answer()) < 4e-5
     x, p = pressures(solution(2049, couette))
     torn = x[p == 0.0]
     assert (torn[0], torn[-1]) == pytest.approx(answer().cavity, abs=1e-5)
+
+
+def test_the_density_is_differenced_by_the_scheme():
+    """By 1B to first order: the edges are no matter."""
+    errors = [difference(solution(nodes, "1B"), answer()) for nodes in (129, 513)]
+    assert errors[0] < 2e-3 and 0.5 * order_of_errors(*errors) == pytest.approx(1.0, abs=0.1)
 
 
 @pytest.mark.parametrize(
@@ -104,9 +109,12 @@ def test_the_flow_of_the_account_is_the_reference_s():
     """In m^3/s of the pad's width, and the same in the filled part of the gap of every torn node."""
     found = solution(2049, "1B")
     width = found.contact.width
-    assert found.result.mass.enters == pytest.approx(width * answer().flow[0], rel=1e-3)
+    assert found.result.mass.enters == pytest.approx(width * answer().flow[0], rel=1e-5)
     torn = found.fields.status[0] == CAVITATED
-    content = (found.fields.filling * found.film)[0, torn]
+    # What is carried is that of the gap behind the node, half a cell further along.
+    cell = reference.LENGTH / 2047.5
+    behind = found.film + 0.5 * cell * (reference.EXIT_FILM - reference.INLET_FILM) / reference.LENGTH
+    content = (found.fields.filling * behind)[0, torn]
     # The last of them meets the film's pressure already.
     np.testing.assert_allclose(content[:-1], content[0], rtol=1e-12)
     carried = 0.5 * reference.SPEED * width * content[0]
