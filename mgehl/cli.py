@@ -16,7 +16,7 @@ from importlib import import_module
 
 from mgehl.address_space import check_address_space
 from mgehl.commands import COMMANDS, CONVERGED, PARALLEL, USAGE, execute_on
-from mgehl.errors import one_line
+from mgehl.errors import UserError, one_line
 from mgehl.failures import told
 from mgehl.petsc_options import check_options, leave_signals_alone
 from mgehl.version import VERSION
@@ -60,6 +60,7 @@ def _prepare():
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))
         elif hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
+    os.environ["MPLBACKEND"] = "agg"  # pictures are files, whatever else draws in a notebook or a window
     logging.lastResort.setLevel(logging.ERROR)  # matplotlib's, of a place for its cache
     warnings.filterwarnings("ignore", category=DeprecationWarning)
     if any(action == "error" for action, *_ in warnings.filters):
@@ -192,6 +193,8 @@ def _check_word(top, name, values):
 def split_options(arguments):
     """Split the words of a command line into mgehl's own and PETSc's: a number below 0 is no option."""
     for position, word in enumerate(arguments):
+        if word == "-":
+            raise UserError("-: is no file; standard input is /dev/stdin")
         if PETSC_OPTION.match(word) and word != "-h":
             return arguments[:position], arguments[position:]
     return arguments, []

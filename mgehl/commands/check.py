@@ -79,9 +79,8 @@ def _described(case):
     """Lines about the contact and, of a loaded one, about its inlet."""
     config, contact, mesh = case.config, case.contact, case.mesh
     yield from config.kind.lines(config, contact, mesh)
-    if contact.is_loaded and not config.is_dry:
-        yield ""
-        yield from _inlet(case)
+    if contact.is_loaded:
+        yield from () if config.is_dry else ("", *_inlet(case))
         yield from _surface(config, contact, mesh)
 
 

@@ -1,6 +1,7 @@
 """How well a grid shows a surface, and the words for it in a run and in `mgehl check`."""
 
-from math import inf, isinf
+from dataclasses import dataclass
+from math import inf, isfinite, isinf
 
 from mgehl.kinds.surface import parts_of
 from mgehl.model.surface import Measured
@@ -16,6 +17,21 @@ ROUGHEST = 20e-6
 
 SMOOTH, RESOLVED, COARSE, GRIDS, UNKNOWN = "smooth", "resolved", "coarse", "grid-determined", "unknown"
 """Verdicts; the last of runs that older versions made."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How well a grid shows the surface of a contact without a film."""
+
+    verdict: str
+    nodes: float | None
+    """In its shortest wave; None without waves."""
+
+    @classmethod
+    def of(cls, contact, mesh):
+        """That of a contact on a mesh."""
+        nodes = wave_nodes(contact, mesh)
+        return cls(surface_verdict(contact, nodes), nodes if isfinite(nodes) else None)
 
 
 def wave_nodes(contact, mesh):
@@ -55,24 +71,29 @@ def surface_lines(config, contact, mesh):
     rms, shortest = contact.roughness, contact.shortest_wave(mesh)
     nodes = shortest / contact.longest_cell(mesh)
     begun = " at the beginning" if config.is_in_time else ""
-    ratio = f"{contact.lambda_ratio:.3g}" if contact.lambda_ratio else "without end"
-    yield (
-        f"surface    Sq {1e9 * rms:.4g} nm   Ssk {contact.skewness:.3g} (within the Hertz contact"
-        f"{begun})   lambda {ratio} (the formula's film {1e9 * contact.expected_film:.4g} nm over Sq)"
-    )
+    film = "" if config.is_dry else _film_over(contact)
+    heights = f"Sq {1e9 * rms:.4g} nm   Ssk {contact.skewness:.3g}"
+    yield f"surface    {heights} (within the Hertz contact{begun}){film}"
     verdict = surface_verdict(contact, nodes)
     # A filter's cut-off leaves a part of shorter ones.
     by_heights = any(part.function or isinstance(part, Measured) for _, part in parts_of(config))
     called = "shortest wave seen in the spectrum" if by_heights else "shortest wavelength"
     wave = "" if isinf(shortest) else f"{called} {1e6 * shortest:.4g} um, "
     yield f"           {wave}{surface_words(verdict, nodes)}{_recommended(verdict, nodes, mesh)}"
-    still = "" if config.is_in_time else "; the rough body stands still, the other has 2 u"
+    stands = not (config.is_in_time or config.is_dry)
+    still = "; the rough body stands still, the other has 2 u" if stands else ""
     yield f"           a peak is positive and lowers the gap{still}"
     if contact.is_line and any(_varies_along_y(part) for _, part in parts_of(config)):
         yield "           heights are those at y = 0, as if they were the same all along y"
     for key, part in parts_of(config):
         yield from _part_lines(key, part, contact, mesh)
     yield from (f"warning    {words}" for words in surface_doubts(config, contact))
+
+
+def _film_over(contact):
+    """Lambda in words."""
+    ratio = f"{contact.lambda_ratio:.3g}" if contact.lambda_ratio else "without end"
+    return f"   lambda {ratio} (the formula's film {1e9 * contact.expected_film:.4g} nm over Sq)"
 
 
 def _varies_along_y(surface):

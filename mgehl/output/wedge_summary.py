@@ -56,7 +56,7 @@ def load_band(result, solve_coarser):
     where a pillar ends at nodes, and what ends there jumps by cells; a pocket's edges lie between nodes.
     `solve_coarser(n)` gives (nodes, load in N) of every n-th node.
 
-    By chance a single difference may be small: what that to the grid after next leads to expect counts, too.
+    A single difference may be small by chance: half of that between the coarser grids counts, too.
     """
     if not result.converged:
         return {"load_band_how": "the run has not converged"}

@@ -5,7 +5,7 @@ from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.friction_result import friction_lines
 from mgehl.output.mixed_words import filling_words, mixed_lines
 from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words, inlet_words
-from mgehl.output.surface import surface_words
+from mgehl.output.surface import GRIDS, surface_words
 from mgehl.output.time_words import SPIKE, time_lines
 from mgehl.solver.gaps import NARROW
 
@@ -34,7 +34,8 @@ def where_to_read(result):
     if not result.converged:
         return [FAILED]
     is_coarse = result.resolution and result.resolution.verdict != "resolved"
-    return [UNRESOLVED] if is_coarse or _contact_is_the_grids(result) else []
+    is_another = result.shown and result.shown.verdict == GRIDS
+    return [UNRESOLVED] if is_coarse or is_another or _contact_is_the_grids(result) else []
 
 
 def _contact_is_the_grids(result):
@@ -76,6 +77,8 @@ def _dry_lines(result):
         approach += " (of a line contact it counts from a distance of a: loads cannot be compared)"
     yield f"approach {approach}"
     yield f"contact: {_size(contact)}; {_where(contact)}; largest gap {contact.largest_gap_nm:.1e} nm"
+    if result.shown and (shown := surface_words(result.shown.verdict, result.shown.nodes)):
+        yield f"surface: {shown}"
     yield f"load error {result.load_error:.1e}, complementarity {result.complementarity_error:.1e}"
     yield _work(result)
     yield from _overlap(result.overlap)

@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from contacts import solved
 
 from mgehl.output.dry_summary import summarise_dry
 from mgehl.output.result import Making, Work
@@ -71,3 +72,22 @@ def test_contact_that_reaches_the_boundary_is_none(settled, ends):
     result = judged(*settled(**ends))
     assert not result.converged and result.boundary_nodes > 0
     assert "a larger grid.x or grid.y is needed" in result.reason
+
+
+WAVES = {"surface": {"kind": "waviness", "amplitude": 1e-7}, "discretization": {"contact_model": "dry"}}
+
+
+@pytest.mark.parametrize(
+    "wavelength, verdict", [(40e-6, "grid-determined"), (150e-6, "coarse"), (300e-6, "resolved")]
+)
+def test_a_surface_that_the_grid_does_not_show_is_named(wavelength, verdict):
+    """Waves of less than four cells have the contact of other waves: pressures may be a third."""
+    found = solved(WAVES, {"surface": {"wavelength_x": wavelength}, "grid": {"nodes": 65}})
+    assert found.result.converged and found.result.shown.verdict == verdict
+    told = str(found)
+    assert (
+        ("THE SURFACE IS THE GRID'S" in told)
+        == ("how to do better" in told)
+        == (verdict == "grid-determined")
+    )
+    assert f"{found.result.shown.nodes:.1f} nodes in its shortest wave" in told
