@@ -124,6 +124,9 @@ FURTHER = {
 }
 """Unit and meaning of fields that smooth bodies or older results are without."""
 
+OF_FLUIDS = "fluid_pressure", "filling"
+"""Those of them that dry contacts are without."""
+
 
 PACKED = {"compression": "gzip", "compression_opts": 1, "shuffle": True, "fletcher32": True}
 """How arrays are written. Shuffled, a double's like bytes lie side by side: a sixth less on the disk, in
@@ -135,7 +138,8 @@ def further_fields(solution):
     fields = solution.fields.named
     if "p" in fields:
         fields["fluid_pressure"] = fields["p"] * solution.contact.pressure_scale
-    return {name: fields[name] for name in FURTHER if name in fields}
+    nothing = OF_FLUIDS if solution.is_dry else ()
+    return {name: fields[name] for name in FURTHER if name in fields and name not in nothing}
 
 
 def write_fields(path, solution, texts):

@@ -24,7 +24,7 @@ class Shown:
     """How well a grid shows the surface of a contact without a film."""
 
     verdict: str
-    nodes: float | None
+    wave_nodes: float | None
     """In its shortest wave; None without waves."""
 
     @classmethod

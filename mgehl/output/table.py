@@ -31,6 +31,8 @@ COLUMNS = {
     "ranks": ("ranks", "d"),
     "converged": ("converged", yes),
     "load N": ("load_N", ".6g"),
+    "load ± N": ("load_band_N", ".2g"),
+    "largest pressure MPa": ("max_pressure_MPa", ".5g"),
     "central nm": ("central_film_nm", ".4f"),
     "minimum nm": ("minimum_film_nm", ".4f"),
     "central ± nm": ("error.central_nm", ".4g"),
@@ -69,7 +71,7 @@ COLUMNS = {
 SLIDING = "friction", "friction of film", "friction of solids"
 """Columns of bodies whose sliding is known: where it is not given their 0 is no answer."""
 
-UNIT = re.compile("( nm| GPa|)$")
+UNIT = re.compile("( nm| GPa| N|)$")
 """What stands behind the ± of a column of half-widths."""
 
 WIDTH = 120

@@ -77,7 +77,7 @@ def _dry_lines(result):
         approach += " (of a line contact it counts from a distance of a: loads cannot be compared)"
     yield f"approach {approach}"
     yield f"contact: {_size(contact)}; {_where(contact)}; largest gap {contact.largest_gap_nm:.1e} nm"
-    if result.shown and (shown := surface_words(result.shown.verdict, result.shown.nodes)):
+    if result.shown and (shown := surface_words(result.shown.verdict, result.shown.wave_nodes)):
         yield f"surface: {shown}"
     yield f"load error {result.load_error:.1e}, complementarity {result.complementarity_error:.1e}"
     yield _work(result)

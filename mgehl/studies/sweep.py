@@ -31,9 +31,9 @@ from mgehl.studies.study import begun
 NEVER_THE_SAME = "wall s", "us a step and node"
 """Columns that a sweep leaves out: one that was killed and resumed has the same table."""
 
-SHOWN = [
-    "converged", "central nm", "mean gap nm", "load on solids", "friction", "convolutions", "why not",
-]  # fmt: skip
+OF_FILMS = "central nm", "mean gap nm", "load on solids", "friction", "convolutions"
+OF_DRY_BODIES = "largest pressure GPa", "approach um", "contact/Hertz area"
+OF_BEARINGS = "load N", "largest pressure MPa"
 """Columns that are printed; the table has more."""
 
 AGAIN = "-again"
@@ -67,10 +67,18 @@ def fill(study, directory, axes, points, name="sweep"):
     walk.once_more()
     runs, names = [each.told for each in walk.stops], [each.run for each in walk.stops]
     rows = study.comm.bcast(on_first_rank(study.comm, _rows, folder, axes, points, runs, names))
-    study.write_table(name, rows, [axis.key for axis in axes] + SHOWN, names=len(axes))
+    shown = [axis.key for axis in axes] + ["converged", *_printed(points[0].config), "why not"]
+    study.write_table(name, rows, shown, names=len(axes))
     on_first_rank(study.comm, write_arrays, study.directory / f"{name}.nc", axes, points, runs)
     study.draw(name, curves, runs, axes[0].key, [WAYS[p.way] for p in points if points[-1].way])
     return runs
+
+
+def _printed(config):
+    """Columns of such a contact that are printed."""
+    if config.is_dry:
+        return OF_DRY_BODIES
+    return OF_FILMS if config.kind.is_loaded else OF_BEARINGS
 
 
 @dataclass

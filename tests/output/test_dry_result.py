@@ -90,4 +90,4 @@ def test_a_surface_that_the_grid_does_not_show_is_named(wavelength, verdict):
         == ("how to do better" in told)
         == (verdict == "grid-determined")
     )
-    assert f"{found.result.shown.nodes:.1f} nodes in its shortest wave" in told
+    assert f"{found.result.shown.wave_nodes:.1f} nodes in its shortest wave" in told

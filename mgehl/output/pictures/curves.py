@@ -21,6 +21,8 @@ PANELS = {
     "part of the load": ("load_on_solids", "load_on_contact"),
     "friction coefficient": ("friction", "friction_of_film", "friction_of_solids"),
     "largest pressure, GPa": ("max_pressure_GPa",),
+    "load, N": ("bearing_load_N",),
+    "largest pressure, MPa": ("bearing_pressure_MPa",),
     "rise of temperature, K": ("flash_1_K", "flash_2_K", "film_K"),
 }
 """Axis of each panel and what it shows: each its own stroke."""
