@@ -133,7 +133,10 @@ def _text_of(path):
     content = _out_of_pipe(path) if stat.S_ISFIFO(kind) else _beginning(path)
     if len(content) > LARGEST_FILE:
         raise OSError(f"has more than {LARGEST_FILE} bytes")
-    return content.decode("utf-8-sig")  # some editors begin a file with a mark
+    try:
+        return content.decode("utf-8-sig")  # some editors begin a file with a mark
+    except UnicodeDecodeError as error:
+        raise OSError(f"is no text in UTF-8 (byte {error.start + 1}): save it as UTF-8") from None
 
 
 def _beginning(path):

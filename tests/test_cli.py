@@ -169,7 +169,7 @@ BAD = [
     (["run", "--nonsense"], ["--nonsense"]),
     (["run", "one.toml", "two.toml"], ["two.toml"]),
     (["run", "--set"], ["--set"]),
-    (["run", "--out", "broken.toml"], ["broken.toml", "exists"]),
+    (["run", "--out", "broken.toml"], ["broken.toml", "is no directory"]),
     (["run", "--out", "broken.toml/deep"], ["broken.toml/deep", "cannot be written"]),
     (["run", "-mgehl_ksp_monitor", "--out", "here"], ["--out", "PETSc options"]),
     (["frobnicate"], ["frobnicate"]),
@@ -181,7 +181,7 @@ BAD = [
     (["study", "frobnicate"], ["frobnicate", "wedge", "schemes"]),
     (["study", "schemes", "--nodes", "100"], ["grid.nodes = 100", "65 or 129"]),
     (["study", "schemes", "--set", "grid.nodes=65"], ["--set", "--nodes"]),
-    (["study", "schemes", "--out", "broken.toml"], ["broken.toml", "exists"]),
+    (["study", "schemes", "--out", "broken.toml"], ["broken.toml", "is no directory"]),
     (["study", "schemes", "--out", "broken.toml/deep"], ["broken.toml/deep", "cannot be written"]),
 ]
 

@@ -135,7 +135,7 @@ FILES = {
     "of too deep a nest": (b"x = " + 5000 * b"[", "not valid TOML: "),
     "of half a heading": (b"[grid\nnodes = 5", "not valid TOML: "),
     "of words": (b"nodes 5", "not valid TOML: "),
-    "of bytes": (b"\xff\xfe", "not valid TOML: "),
+    "of bytes": (b"\xff\xfe", "cannot be read: is no text in UTF-8 (byte 1)"),
     "without a section": (b"load = 5\n", "load = 5: must stand in a section, such as [contact]"),
 }
 

@@ -22,8 +22,9 @@ POCKET = ("wedge.pocket_from", "wedge.pocket_to", "wedge.pocket_width")
 LAWS = ("lubricant.viscosity_law", "lubricant.pressure_viscosity", "lubricant.density_law")
 """Keys that say what a pressure changes."""
 
-LARGEST_CHECKED = 1e9
-"""Pressure in Pa up to which a user's own laws are checked."""
+LARGEST_CHECKED, MORE_THAN_ITS_OWN = 1e9, 10.0
+"""Pressure in Pa up to which a user's own laws are checked at the most, and over 6 eta u L/h^2 above the
+ambient one: no pad has more by a constant viscosity, and a viscosity that rises with it adds to it."""
 
 EFFORT = Effort(1.0, 17e-6, 0.1, 900.0, "a wedge makes no convolutions", False)
 
@@ -164,7 +165,7 @@ class WedgeKind(Kind):
         """The pad must be a plate, its gap, its pillar and its pocket larger than cells of the grid."""
         check_on_grid(config.wedge, contact, self.mesh(config, contact), config.grid.nodes)
         if config.wedge.pressure_laws:
-            check_own_laws_up_to(contact.lubricant, LARGEST_CHECKED)
+            check_own_laws_up_to(contact.lubricant, _largest_pressure(contact))
 
     def effort(self, config):
         """One linear solve, or a few."""
@@ -219,6 +220,13 @@ class WedgeKind(Kind):
 
 
 WEDGE = WedgeKind()
+
+
+def _largest_pressure(bearing):
+    """Up to which laws are checked, in Pa."""
+    length, film = bearing.inlet - bearing.exit, min(bearing.films)
+    own = 6.0 * bearing.viscosity * bearing.speed * length / film**2
+    return min(LARGEST_CHECKED, bearing.ambient_pressure + MORE_THAN_ITS_OWN * own)
 
 
 def _pad(bearing):

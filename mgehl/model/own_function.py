@@ -96,7 +96,7 @@ class OwnFunction:
             with np.errstate(all="ignore"):
                 return function(*arguments)
         except (Exception, SystemExit) as error:
-            raise self.error(f"raises {self._describe(error)}") from None
+            raise self.error(f"raises {self._describe(error)}{_not_given(arguments)}") from None
 
     def _function(self):
         match = _NAME.fullmatch(self.value)
@@ -139,6 +139,13 @@ def without_running(thing):
     found = {each.name: getattr(thing, each.name) for each in fields(thing) if each.init}
     stored = {name: without_running(each) for name, each in found.items()}
     return replace(thing, **stored) if any(stored[name] is not found[name] for name in found) else thing
+
+
+def _not_given(arguments):
+    """What a law that failed may have missed: its conditions that the configuration does not name."""
+    names = [each.name for at in arguments if is_dataclass(at) for each in fields(at)]
+    missing = [name for name in names if getattr(arguments[0], name) is None]
+    return f" ({', '.join(f'at.{name}' for name in missing)}: None here)" if missing else ""
 
 
 @cache

@@ -241,17 +241,21 @@ def _check_values(function, law, p_max, expected, meaning):
 
 
 def _check_slope(function, law, p, name):
-    """The derivative of a `law` must be that of its value, to within a small part of the largest."""
+    """The derivative of a `law` must be that of its value, to within a small part of the largest; at a kink
+    of a table that of either side, or between both."""
     step = SLOPE_STEP * p[-1]
     given, inner = _as_nodes(law, p)[1], p[1:]
-    change = (_as_nodes(law, inner + step)[0] - _as_nodes(law, inner - step)[0]) / (2.0 * step)
+    value, before, after = (_as_nodes(law, inner + way)[0] for way in (0.0, -step, step))
+    sides = (value - before) / step, (after - value) / step
     # At p = 0 there is nothing below to compare to.
-    change = np.append(np.where(np.isfinite(given[0]), given[0], 0.0), change)
-    allowed = SLOPE_TOLERANCE * np.abs(change[1:]).max() + NO_SLOPE / p[-1]
-    off = np.abs(given - change)
+    first = np.where(np.isfinite(given[0]), given[0], 0.0)
+    least, most = (np.append(first, end(*sides)) for end in (np.minimum, np.maximum))
+    allowed = SLOPE_TOLERANCE * np.abs(most[1:]).max() + NO_SLOPE / p[-1]
+    nearest = np.clip(given, least, most)
+    off = np.abs(given - nearest)
     if not (off <= allowed).all():
         i = int(off.argmax())
         raise function.error(
             f"its derivative is wrong: {name} = {given[i]:.4g} at {p[i]:.3g} Pa, where differences of "
-            f"the value give {change[i]:.4g}"
+            f"the value give {nearest[i]:.4g}"
         )

@@ -45,7 +45,7 @@ def _tries(solution):
     result, config = solution.result, solution.config
     if solution.contact.is_loaded:
         yield from _of_domain(solution)
-    if result.settled and result.edge.wrong[0]:
+    if solution.contact.is_loaded and (result.edge.cuts or (result.settled and result.edge.wrong[0])):
         return
     if not solution.contact.is_loaded or solution.is_dry:
         yield "solver.max_steps: a higher one, where the residual still falls"

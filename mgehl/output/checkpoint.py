@@ -180,7 +180,8 @@ def scattered(grid, arrays):
 
 def damaged(path, error):
     """The message about a file that raised an `error`."""
-    return f"{path}: is damaged, or no checkpoint: {one_line(error)}; without it, the run begins earlier"
+    goes_on = "the run cannot go on" if path.name == BEGUN else "the run begins earlier"
+    return f"{path}: is damaged, or no checkpoint: {one_line(error)}; without it, {goes_on}"
 
 
 def load(path, tables=None):

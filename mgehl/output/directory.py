@@ -32,6 +32,8 @@ def make_directory(path, force=False):
     path = Path(path)
     if path.is_dir() and not force:
         raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
+    if os.path.lexists(path) and not path.is_dir():
+        raise OutputError(f"{path}: is no directory: choose another with --out")
     with writing(path):
         path.mkdir(parents=True, exist_ok=force)
 

@@ -46,15 +46,17 @@ def _contact_is_the_grids(result):
 
 
 def _load_in_N(result):
-    """A bearing's load with its band."""
+    """A bearing's load with its band, or why it has none."""
     band = result.load_band_N
-    return f"{with_band(result.load_N, band)} N" if band else f"{result.load_N:.4g} N"
+    if band:
+        return f"{with_band(result.load_N, band)} N"
+    return f"{result.load_N:.4g} N" + (f", no band: {result.load_band_how}" if result.converged else "")
 
 
 def _bearing_lines(result):
     yield (
-        f"load {result.load:.6f} mm ({_load_in_N(result)}), P from {result.min_P:.6f} to "
-        f"{result.max_P:.6f} /mm (at most {result.max_pressure_MPa:.4g} MPa)"
+        f"load {result.load:.6g} mm ({_load_in_N(result)}), P from {result.min_P:.6g} to "
+        f"{result.max_P:.6g} /mm (at most {result.max_pressure_MPa:.4g} MPa)"
     )
     if result.min_P < 0.0:
         yield "the film pulls where P is below 0; discretization.cavitation = true lets it tear there"

@@ -64,6 +64,28 @@ def test_a_wrong_derivative_is_refused_with_its_place_and_size(viscosity, slope,
     assert words in refused(viscosity(BARUS, slope).check, 2.0 * P_H)
 
 
+TABLE = """
+import numpy as np
+KNOTS = np.linspace(0.0, 2e9, 21)
+LOGARITHMS = 18e-9 * KNOTS - 2e-18 * KNOTS**2
+def law(at):
+    eta = at.viscosity * np.exp(np.interp(at.pressure, KNOTS, LOGARITHMS))
+    k = np.clip(np.searchsorted(KNOTS, at.pressure, side=SIDE) - 1, 0, 19)
+    return eta, eta * np.diff(LOGARITHMS)[k] / 1e8
+"""
+
+
+@pytest.mark.parametrize("side", ["'left'", "'right'"])
+def test_a_table_may_have_kinks_where_it_is_checked(own, side):
+    """At its knots the derivative is that of either side."""
+    OwnViscosity(0.05, 17.8e-9, own(TABLE.replace("SIDE", side))).check(1e9)
+
+
+def test_conditions_that_nobody_named_are_told(own):
+    law = OwnViscosity(0.05, 18e-9, own("def law(at): return at.viscosity * (at.temperature - 300.0), 0.0"))
+    assert "(line 1) (at.shear_rate, at.temperature: None here)" in refused(law.check, P_H)
+
+
 @pytest.mark.parametrize(
     "text, words",
     [
