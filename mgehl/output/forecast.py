@@ -193,14 +193,13 @@ def _steady_effort(config, contact, mesh):
 
 
 def _of_peaks(contact, has_layers, mesh):
-    """Convolutions of a ball whose peaks reach through the film: of three in four right within 2.
+    """Convolutions of a ball whose peaks reach through the film: of two in three right within 2.
 
     They fall with less roughness over the depth of the dry contact, and rise with 1/lambda below lambda =
     0.15, with layers of 2 nm faster.
     """
-    highest, power = (400.0, 0.75) if has_layers else (330.0, 0.36)
-    thinner = max(0.15 * contact.roughness / contact.expected_film, 1.0) ** power
-    return highest * (mesh.nx / 129) ** 0.5 * (contact.roughness / contact.film_scale) ** 0.36 * thinner
+    thinner = max(0.15 * contact.roughness / contact.expected_film, 1.0) ** (0.75 if has_layers else 0.36)
+    return 330.0 * (mesh.nx / 129) ** 0.5 * (contact.roughness / contact.film_scale) ** 0.36 * thinner
 
 
 def time_convolution(mesh):
