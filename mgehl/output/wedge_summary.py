@@ -1,11 +1,8 @@
 """The `Result` of a rigid bearing, its final state evaluated."""
 
-from contextlib import suppress
-
 import numpy as np
 
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, WALL
-from mgehl.errors import ConfigError
 from mgehl.output.film_error import no_band
 from mgehl.output.result import Result
 from mgehl.solver.mass import account
@@ -51,25 +48,23 @@ def summarise_wedge(problem, outcome, wall_s, versions):
     )
 
 
-def load_band(result, solve_coarser):
-    """The parts of a bearing's `Result` that say how well its load is known. The load is of first order
+def load_band(result, coarser, why_no_more=""):
+    """The parts of a bearing's `Result` that say how well its load is known, by (nodes, load in N, None for
+    no answer) of the coarser grids, finest first, and why there are no more. The load is of first order
     where a pillar ends at nodes, and what ends there jumps by cells; a pocket's edges lie between nodes.
-    `solve_coarser(n)` gives (nodes, load in N) of every n-th node.
 
     A single difference may be small by chance: half of that between the coarser grids counts, too.
     """
     if not result.converged:
         return {"load_band_how": "the run has not converged"}
-    try:
-        nodes, load = solve_coarser(2)
-    except ConfigError as error:
-        return {"load_band_how": f"the next coarser grid is too coarse: {error}"}
+    if not coarser:
+        return {"load_band_how": f"the next coarser grid is too coarse: {why_no_more}"}
+    (nodes, load), *more = coarser
     if load is None:
         return {"load_band_how": f"on {nodes} nodes, the next coarser grid, there is no answer"}
     difference, how = abs(result.load_N - load), f"from the difference to {nodes} nodes"
-    with suppress(ConfigError):
-        after_next, coarsest = solve_coarser(4)
-        if coarsest is not None:
-            difference = max(difference, 0.5 * abs(load - coarsest))
-            how = f"from the differences to {nodes} and {after_next} nodes"
+    if more and more[0][1] is not None:
+        after_next, coarsest = more[0]
+        difference = max(difference, 0.5 * abs(load - coarsest))
+        how = f"from the differences to {nodes} and {after_next} nodes"
     return {"load_band_N": BY_CELLS * difference, "load_band_how": how}

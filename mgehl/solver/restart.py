@@ -5,10 +5,10 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from scipy.interpolate import RegularGridInterpolator
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import UserError
+from mgehl.grid.onto import onto
 from mgehl.model.own_function import file_and_function
 from mgehl.solver.beginning import OF_A_START, begin, first_found
 from mgehl.solver.continuation import Continuation
@@ -219,7 +219,7 @@ def _laid_on(problem, start, frame):
     old = _stretched(start.mesh.in_frame(frame), wider, wider)
 
     def laid(values):
-        return _onto(mesh, old, frame.array(values))
+        return onto(mesh, old, frame.array(values))
 
     P, p = higher * laid(fields.P), higher * laid(fields.fluid_pressure)
     filling = 1.0 - laid(1.0 - fields.full_part)  # full outside
@@ -239,7 +239,7 @@ def begun_in_time(problem, start, frame):
         wider = stood.x_scale / contact.x_scale, stood.y_scale / contact.y_scale
         old = _stretched(start.mesh.in_frame(frame), *wider)
         scale = start.contact.film_scale / contact.film_scale
-        H = scale * _onto(mesh, old, frame.array(start.fields.H), outside=np.nan)
+        H = scale * onto(mesh, old, frame.array(start.fields.H), outside=np.nan)
     H = grid.scatter(H)
     state.H = np.where(np.isnan(H), state.H, np.maximum(H, problem.scheme.contact_law.contact_gap))
     return state
@@ -248,11 +248,3 @@ def begun_in_time(problem, start, frame):
 def _stretched(mesh, x, y):
     """A mesh in other units: `x` of those along X make an old one, and `y` along Y."""
     return replace(mesh, x=tuple(x * end for end in mesh.x), y=tuple(y * end for end in mesh.y))
-
-
-def _onto(mesh, old, values, outside=0.0):
-    """Values of the `old` mesh's nodes at those of `mesh`."""
-    if old.is_line:
-        return np.interp(mesh.X, old.X, values[0], left=outside, right=outside)[None, :]
-    function = RegularGridInterpolator((old.Y, old.X), values, bounds_error=False, fill_value=outside)
-    return function(tuple(np.meshgrid(mesh.Y, mesh.X, indexing="ij")))

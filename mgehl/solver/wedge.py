@@ -1,10 +1,14 @@
 """The rigid wedge bearing: one linear system for the pressure, or a few where the film cavitates."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from mgehl.discretization.face_gap import FaceGap
+from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.rows import GAP, PRESSURE
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
+from mgehl.grid.onto import onto
 from mgehl.multigrid.assembled import AssembledSolver
 from mgehl.solver.outcome import Outcome
 from mgehl.solver.problem import Problem, State
@@ -56,11 +60,46 @@ class WedgeProblem(Problem):
         return F + np.where(status == BOUNDARY, self.contact.ambient / self.grid.mesh.dX, 0.0)
 
 
-def solve_wedge(grid, bearing, scheme, tolerance, max_steps, before_step=lambda: None):
+@dataclass(frozen=True)
+class Found:
+    """An answer on another grid, from which one begins: whole arrays on rank 0, None elsewhere."""
+
+    mesh: Mesh
+    P: np.ndarray | None
+    filling: np.ndarray | None
+    torn: np.ndarray | None
+
+    @classmethod
+    def of(cls, problem, state):
+        """That of a state (collective)."""
+        arrays = state.P, state.filling, (state.status == CAVITATED).astype(float)
+        return cls(problem.grid.mesh, *(problem.grid.gather(each) for each in arrays))
+
+    def lay_on(self, problem, state):
+        """Lay it on the film of a first guess, in place (collective). Each step moves the edges of cavities
+        by a few nodes: from nothing a grid of twice the nodes takes twice the steps."""
+        grid, film = problem.grid, state.status == LUBRICATED
+        arrays = self.P, self.filling, self.torn
+        if grid.comm.rank == 0:
+            arrays = [onto(grid.mesh, self.mesh, each) for each in arrays]
+        P, filling, torn = (grid.scatter(each) for each in arrays)
+        torn = film & (torn > 0.5)
+        state.status[torn] = CAVITATED
+        state.P[film], state.P[torn] = (
+            np.maximum(P[film], problem.contact.tears_at),
+            problem.contact.tears_at,
+        )
+        state.filling[torn] = np.clip(filling[torn], 0.0, 1.0)
+
+
+def solve_wedge(grid, bearing, scheme, tolerance, max_steps, before_step=lambda: None, found=None):
     """Solve on `grid`; return the `WedgeProblem` and an `Outcome` of `FluidStep`s. `tolerance` is for the
-    rms residual, full film's Couette term being 1; `before_step` may raise what ends the run."""
+    rms residual, full film's Couette term being 1; `before_step` may raise what ends the run. It begins
+    from what was `Found` on a coarser grid, if that is given."""
     problem = WedgeProblem(grid, bearing, scheme)
     fluid, state = RigidGapFluid(problem, AssembledSolver(grid)), problem.first_guess()
+    if found:
+        found.lay_on(problem, state)
     try:
         steps = fluid.solve(state, tolerance, max_steps, before_step)
         # Once more: what the first solve left would show in the flow balance.

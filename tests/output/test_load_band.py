@@ -2,7 +2,6 @@ import pytest
 from contacts import solved
 from made_solution import make_result
 
-from mgehl.errors import ConfigError
 from mgehl.output.wedge_summary import BY_CELLS, load_band
 
 PILLAR = {"contact": {"kind": "wedge"}, "wedge": {"pillar": "square"}, "motion": {"speed": 1.0}}
@@ -24,15 +23,12 @@ def test_a_bearing_s_load_has_a_band_by_coarser_grids():
     assert coarsest.load_band_N is None and "too coarse: grid.nodes = 33" in coarsest.load_band_how
 
 
-def refuse(_by):
-    raise ConfigError("wedge.pillar_size = 1: has less than two cells")
-
-
 @pytest.mark.parametrize(
-    "converged, solve, why",
-    [(False, None, "has not converged"), (True, refuse, "two cells"),
-     (True, lambda _by: (65, None), "there is no answer")],
+    "converged, coarser, why",
+    [(False, [(65, 1.0)], "has not converged"), (True, [], "two cells"),
+     (True, [(65, None)], "there is no answer")],
 )  # fmt: skip
-def test_where_it_has_none_it_says_why(converged, solve, why):
-    found = load_band(make_result(converged=converged, load_N=1.0), solve)
+def test_where_it_has_none_it_says_why(converged, coarser, why):
+    refused = "wedge.pillar_size = 1: has less than two cells"
+    found = load_band(make_result(converged=converged, load_N=1.0), coarser, refused)
     assert why in found["load_band_how"] and "load_band_N" not in found
