@@ -1,5 +1,7 @@
 """Input that is allowed, and yet unusual: most often a wrong unit. Each is named; none is refused."""
 
+import numpy as np
+
 from mgehl.kinds.bodies import BODIES
 from mgehl.kinds.loaded_checks import LARGEST_CONTACT, on_the_bodies
 from mgehl.kinds.plausible_bodies import implausible_heat, implausible_layer
@@ -11,6 +13,7 @@ from mgehl.model.frame import direction
 from mgehl.model.lubricant import Roelands
 from mgehl.model.oils import CELSIUS, OILS
 from mgehl.model.own_function import OwnFunctionError
+from mgehl.model.own_laws import OwnDensity, OwnViscosity
 
 USUAL = {
     "contact.radius_x": (1e-5, 5.0, "m"),
@@ -89,6 +92,7 @@ def implausible(config, contact):
             f"lubricant.viscosity_law = 'roelands': its z is {law.z:.3g}, measured oils have 0.4 to 0.8: "
             "look at viscosity and pressure_viscosity"
         )
+    yield from _falling(contact)
     yield from _films(config, contact)
     yield from _against(contact)
     yield from _stands_still(config)
@@ -99,6 +103,21 @@ def implausible(config, contact):
         yield from implausible_in_time(config, contact)
     if config.lubricant.oil is not None:
         yield from _range(config.lubricant, contact.hertz.p_h)
+
+
+def _falling(contact):
+    """Own laws of the oil that fall where the pressure rises."""
+    lubricant, p_h = contact.lubricant, contact.hertz.p_h
+    P = np.linspace(0.0, 1.0, 101)[None, :]
+    for key, law, values in (
+        ("viscosity_law", lubricant.viscosity_law, lubricant.log_viscosity),
+        ("density_law", lubricant.density_law, lubricant.density),
+    ):
+        if isinstance(law, OwnViscosity | OwnDensity):
+            falls = np.flatnonzero(np.diff(values(P, p_h)[0][0]) < 0.0)
+            if falls.size:
+                at = 1e-9 * p_h * P[0, falls[0]]
+                yield f"lubricant.{key} falls from {at:.3g} GPa on: pressure makes oil thicker and denser"
 
 
 def _flat_lay(config):

@@ -286,3 +286,11 @@ def test_a_rotation_about_another_axis_than_the_motion_s_is_named(angle, more, i
         "body_2.speed": 0.05, "contact.load": 20.0, "motion.angle": angle,
     }  # fmt: skip
     assert any("body_1.rotation is a speed" in line for line in odd(wheel | more)) == is_odd
+
+
+@pytest.mark.parametrize("sign, names", [(1.0, []), (-1.0, ["lubricant.density_law falls from 0 GPa on"])])
+def test_an_own_law_that_falls_with_pressure_is_named(tmp_path, sign, names):
+    law = tmp_path / "mine.py"
+    law.write_text(f"def density(at): return 1.0 + {sign} * 1e-10 * at.pressure, {sign} * 1e-10\n")
+    found = odd(BALL | {"lubricant.density_law": f"{law}:density"})
+    assert [words.partition(":")[0] for words in found] == names

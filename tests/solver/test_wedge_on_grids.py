@@ -8,7 +8,8 @@ from mgehl.solver.wedge import solve_wedge
 
 TORN = {
     "contact": {"kind": "wedge"},
-    "wedge": {"length": 20e-3, "inlet_film": 10e-6, "exit_film": 20e-6, "width": 10e-3, "ambient_pressure": 1e5},
+    "wedge": {"length": 20e-3, "inlet_film": 10e-6, "exit_film": 20e-6, "width": 10e-3,
+              "ambient_pressure": 1e5},
     "lubricant": {"viscosity": 0.01}, "motion": {"speed": 1.0},
     "discretization": {"cavitation": True},
 }  # fmt: skip
