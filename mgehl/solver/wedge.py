@@ -78,17 +78,15 @@ class Found:
     def lay_on(self, problem, state):
         """Lay it on the film of a first guess, in place (collective). Each step moves the edges of cavities
         by a few nodes: from nothing a grid of twice the nodes takes twice the steps."""
-        grid, film = problem.grid, state.status == LUBRICATED
+        grid, film, tears_at = problem.grid, state.status == LUBRICATED, problem.contact.tears_at
         arrays = self.P, self.filling, self.torn
         if grid.comm.rank == 0:
             arrays = [onto(grid.mesh, self.mesh, each) for each in arrays]
         P, filling, torn = (grid.scatter(each) for each in arrays)
         torn = film & (torn > 0.5)
         state.status[torn] = CAVITATED
-        state.P[film], state.P[torn] = (
-            np.maximum(P[film], problem.contact.tears_at),
-            problem.contact.tears_at,
-        )
+        state.P[film] = np.maximum(P[film], tears_at)
+        state.P[torn] = tears_at
         state.filling[torn] = np.clip(filling[torn], 0.0, 1.0)
 
 
