@@ -105,12 +105,15 @@ def _complain(lines):
 
 def _say_what(options, file, case, tables):
     """Say which configuration is solved where none was named, what it does not give, what is unusual."""
+    from mgehl.kinds.choice import given
     from mgehl.kinds.plausible import implausible
     from mgehl.saying import mention
 
     changed, config = ", changed by --set" if options.settings else "", case.config
     which = [] if options.config else [f"no configuration named: solving {shown(file)}{changed}"]
     which += [f"not given: {words}" for words in not_given(config, tables).values()]
+    if idle := given(tables, sorted(config.unused)):
+        which.append(f"not used: {', '.join(idle)}: nothing to a {config.kind.noun}")
     which += [f"unusual: {words}" for words in implausible(config, case.contact)]
     for words in which:
         mention(words)
