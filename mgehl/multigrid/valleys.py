@@ -14,9 +14,9 @@ DRIVEN = 30.0
 """Mobility/dX over a node's own influence from which on it is relaxed along Y, too: elsewhere it is the gap
 that moves, along X alone. With 5 and 150 about the same work."""
 
-PATIENCE = 15
-"""Relaxations of one system by lines; then nearby nodes are solved at once, by an LU as dear as 15: at most
-twice what was needed is paid so."""
+PATIENCE, OF_NODES = 15, 26_000
+"""Relaxations of one system by lines, then nearby nodes are solved at once: an LU of so many nodes is as
+dear as so many relaxations, and grows by n^1.5. At most twice what was needed is paid so."""
 
 MOST_AT_ONCE = 50
 """Relaxations of one linear system with nearby nodes at once; then it is finished by lines, and so are all
@@ -94,8 +94,8 @@ class RoughLineSmoother(LinesBothWays):
 
 
 class ValleySmoother(RoughLineSmoother):
-    """The same until a linear system has taken `PATIENCE` relaxations; from then on a `NearbySolve` around
-    the contact and lines beyond, in the rest of that system and in all later ones.
+    """The same until a linear system has taken `PATIENCE` relaxations, of more nodes more; from then on a
+    `NearbySolve` around the contact and lines beyond, in the rest of that system and in all later ones.
 
     c = c_L + Q T^-1 (r - J c_L): c_L by lines for r beyond the zone, J with the deflection of near nodes
     alone. Zones above `LARGEST` keep the lines, and so do systems after `MOST_AT_ONCE`.
@@ -108,7 +108,9 @@ class ValleySmoother(RoughLineSmoother):
         grid = jacobian.grid
         self._zone = grid.X**2 + grid.Y**2 <= (ZONE * jacobian.contact.reach) ** 2
         self._nearby = NearbySolve(jacobian, self._near, self._share, self._zone)
-        self._may_be_at_once = grid.count(self._zone) <= LARGEST
+        nodes = grid.count(self._zone)
+        self._may_be_at_once = nodes <= LARGEST
+        self._patience = max(round(PATIENCE * (nodes / OF_NODES) ** 0.5), 1)
         self.way, self._taken = BY_LINES, 0  # the present way, and relaxations of this system by it
 
     def free(self):
@@ -157,7 +159,7 @@ class ValleySmoother(RoughLineSmoother):
         """Relaxations of a system after which another way is taken."""
         if self.way == AT_ONCE:
             return MOST_AT_ONCE
-        return PATIENCE if self.way == BY_LINES and self._may_be_at_once else inf
+        return self._patience if self.way == BY_LINES and self._may_be_at_once else inf
 
     def view(self, viewer):
         super().view(viewer)
