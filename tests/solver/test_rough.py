@@ -8,7 +8,6 @@ from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.model.surface import Surface
-from mgehl.multigrid import valleys
 from mgehl.solver.inequality import check_interface
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
@@ -117,9 +116,8 @@ def test_contact_carries_much_of_the_load(solve_rough, start, speed, steps, shar
     assert check_interface(problem, state).violations == 0
 
 
-def test_nearby_nodes_at_once_settle_and_a_run_that_was_stopped_goes_on_the_same(solve_rough, monkeypatch):
+def test_nearby_nodes_at_once_settle_and_a_run_that_was_stopped_goes_on_the_same(solve_rough):
     """Waves of 200 nm at a smooth film of .5 nm; a linear system may take but few iterations by lines."""
-    monkeypatch.setattr(valleys, "PATIENCE", 15)
     kept = Kept()
     _, whole = solve_rough(2e-7, 4e-5, journal=kept)
     assert whole.converged and len(kept.records) > 15
