@@ -56,7 +56,8 @@ def flows_past_edges(fluid, status, axis, scheme, mobility, linearised, gap):
 
 
 def _end_at_the_edge(flow, fluid, axis, mobility):
-    """Let a flow be that to P = 0, whatever the pressure of the node behind the edge."""
+    """Let a flow be that to P = 0, whatever the pressure of the node behind the edge. (That this pressure
+    changes the mean mobility is left out of the derivatives: Newton's steps hardly need it.)"""
     behind, sign = (E, 1.0) if axis.couette >= 0.0 else (W, -1.0)
     conductance = sign * mobility.value / axis.distance
     flow.value += conductance * axis.at(fluid.P, SHIFT[behind])

@@ -143,9 +143,11 @@ def without_running(thing):
 
 def _not_given(arguments):
     """What a law that failed may have missed: its conditions that the configuration does not name."""
-    names = [each.name for at in arguments if is_dataclass(at) for each in fields(at)]
-    missing = [name for name in names if getattr(arguments[0], name) is None]
-    return f" ({', '.join(f'at.{name}' for name in missing)}: None here)" if missing else ""
+    told = [
+        (each.name, getattr(at, each.name)) for at in arguments if is_dataclass(at) for each in fields(at)
+    ]
+    missing = ", ".join(f"at.{name}" for name, value in told if value is None)
+    return f" ({missing}: None here)" if missing else ""
 
 
 @cache

@@ -250,7 +250,7 @@ def _check_slope(function, law, p, name):
     # At p = 0 there is nothing below to compare to.
     first = np.where(np.isfinite(given[0]), given[0], 0.0)
     least, most = (np.append(first, end(*sides)) for end in (np.minimum, np.maximum))
-    allowed = SLOPE_TOLERANCE * np.abs(most[1:]).max() + NO_SLOPE / p[-1]
+    allowed = SLOPE_TOLERANCE * np.abs([least[1:], most[1:]]).max() + NO_SLOPE / p[-1]
     nearest = np.clip(given, least, most)
     off = np.abs(given - nearest)
     if not (off <= allowed).all():
