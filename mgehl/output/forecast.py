@@ -63,12 +63,7 @@ SIDE_BY_SIDE = Effort(
 """Such contact as the start on grids that see the inlet."""
 
 ROUGH = Effort(
-    150.0,
-    2e-7,
-    0.01,
-    5000.0,
-    "rough balls on 257 nodes took 38 to 2700, half of them up to 144",
-    most_bytes_per_node=12500.0,
+    150.0, 2e-7, 0.01, 5000.0, "rough balls on 257 nodes took 38 to 2700", most_bytes_per_node=12500.0
 )
 """Balls whose peaks reach through the film; `_of_peaks` has their convolutions. What GMRES and its memory
 keep grows with the iterations, the more where nearby nodes are solved at once."""
@@ -193,9 +188,7 @@ def _steady_effort(config, contact, mesh):
 
 
 def _of_peaks(contact, has_layers, mesh):
-    """Convolutions of a ball whose peaks reach through the film: of two in three right within 2.
-
-    They fall with less roughness over the depth of the dry contact, and rise with 1/lambda below lambda =
+    """Convolutions of a ball whose peaks reach through the film: of two in three right within 2. They fall with less roughness over the depth of the dry contact, and rise with 1/lambda below lambda =
     0.15, with layers of 2 nm faster.
     """
     thinner = max(0.15 * contact.roughness / contact.expected_film, 1.0) ** (0.75 if has_layers else 0.36)

@@ -40,7 +40,7 @@ QUANTITIES = {
         "film_K": ("friction.temperatures.film", "K", "film, on average"),
         "bearing_load_N": ("load_N", "N", "load that the pressure carries", "load_band_N"),
         "bearing_pressure_MPa": ("max_pressure_MPa", "MPa", "largest pressure"),
-        "approach_um": ("approach_um", "um", "approach of dry bodies"),
+        "approach_um": ("approach_um", "um", "approach of dry bodies, of a line from a distance of a"),
         "contact_area": ("contact.area_fraction", "1", "contact over Hertz area"),
         "max_pressure_GPa": ("max_pressure_GPa", "GPa", "largest pressure", "max_pressure_band_GPa"),
         "lambda_ratio": ("mixed.lambda_ratio", "1", "film of smooth bodies over Sq"),
