@@ -188,9 +188,9 @@ def _steady_effort(config, contact, mesh):
 
 
 def _of_peaks(contact, has_layers, mesh):
-    """Convolutions of a ball whose peaks reach through the film: of two in three right within 2. They fall with less roughness over the depth of the dry contact, and rise with 1/lambda below lambda =
-    0.15, with layers of 2 nm faster.
-    """
+    """Convolutions of a ball whose peaks reach through the film: of two in three right within 2. Less rough
+    over the depth of the dry contact they are fewer; below lambda = 0.15 they rise with 1/lambda, with
+    layers of 2 nm faster."""
     thinner = max(0.15 * contact.roughness / contact.expected_film, 1.0) ** (0.75 if has_layers else 0.36)
     return 330.0 * (mesh.nx / 129) ** 0.5 * (contact.roughness / contact.film_scale) ** 0.36 * thinner
 
