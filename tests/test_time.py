@@ -477,7 +477,7 @@ def test_a_run_that_is_stopped_goes_on_with_the_same_bits(tmp_path):
 
 def test_work_before_a_stop_counts_for_the_limit(tmp_path):
     """A run that was killed now and then made as many convolutions as it liked."""
-    still = {"surface.body": "still", "solver.max_work": 100}
+    still = {"surface.body": "still", "solver.max_work": 50}
     case, comm = enter(mgehl.load(None, BALL | ROUGH | still), MPI.COMM_SELF), MPI.COMM_SELF
     directories = [tmp_path / name for name in ("whole", "stopped")]
     for directory in directories:
