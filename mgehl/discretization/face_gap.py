@@ -5,9 +5,10 @@ Between two nodes a distance d apart q = c h - (rho/(eta lambda)) h^3 dP/dx is t
     q = c `carried` - (rho/(eta lambda)) `cubed` (P_E - P_W)/d        [derived]
     cubed = d / int h^-3 dx,  carried = cubed int h^-2 dx / d
 
-The oil is differenced as elsewhere, in a gap of 1. At an edge between the nodes a film may tear. It lets
-through what it would up to there with the pressure of torn oil, P = 0, and that is less than q wherever q
-would need less pressure than that.
+The oil is differenced as elsewhere, in a gap of 1.
+
+At an edge between the nodes a film may tear. A torn film has P = 0 at the edge, and what it lets through is
+the q of the way up to the edge. Of both flows the lesser is taken: the other needs P < 0 at the edge.
 """
 
 from dataclasses import dataclass, replace

@@ -22,9 +22,9 @@ POCKET = ("wedge.pocket_from", "wedge.pocket_to", "wedge.pocket_width")
 LAWS = ("lubricant.viscosity_law", "lubricant.pressure_viscosity", "lubricant.density_law")
 """Keys that say what a pressure changes."""
 
-LARGEST_CHECKED, MORE_THAN_ITS_OWN = 1e9, 10.0
-"""Pressure in Pa up to which a user's own laws are checked at the most, and over 6 eta u L/h^2 above the
-ambient one: no pad has more by a constant viscosity, and a viscosity that rises with it adds to it."""
+MORE_THAN_ITS_OWN, LARGEST_CHECKED = 10.0, 1e9
+"""Own laws are checked up to so many times 6 eta u L/h^2 above the ambient pressure, at most up to so many
+Pa. By a constant viscosity no pad reaches that once; a viscosity that rises adds to it."""
 
 EFFORT = Effort(1.0, 17e-6, 0.1, 900.0, "a wedge makes no convolutions", False)
 TEARING = replace(EFFORT, node_seconds=1.2e-4)

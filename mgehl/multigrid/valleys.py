@@ -15,8 +15,8 @@ DRIVEN = 30.0
 that moves, along X alone. With 5 and 150 about the same work."""
 
 PATIENCE, OF_NODES = 15, 26_000
-"""Relaxations of one system by lines, then nearby nodes are solved at once: an LU of so many nodes is as
-dear as so many relaxations, and grows by n^1.5. At most twice what was needed is paid so."""
+"""Relaxations of one system by lines, after which nearby nodes are solved at once. An LU of so many nodes
+costs as much as so many relaxations, and n^1.5 on others: at most twice what was needed is paid."""
 
 MOST_AT_ONCE = 50
 """Relaxations of one linear system with nearby nodes at once; then it is finished by lines, and so are all

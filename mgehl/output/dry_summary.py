@@ -7,7 +7,7 @@ import numpy as np
 from mgehl.output.film_error import no_band
 from mgehl.output.result import HertzResult, Overlap, Result
 from mgehl.output.summary import first_broken, load_off, of_every_load
-from mgehl.output.surface import Shown
+from mgehl.output.surface import SurfaceOnGrid
 
 PRESSED = 1e-12
 """Pressure of dry contact over the largest, which a peak may have: more than rounding."""
@@ -27,7 +27,7 @@ def summarise_dry(problem, outcome, tolerance, making):
         boundary_nodes=_boundary_nodes(problem, state, tolerance),
         hertz=HertzResult(1e-9 * hertz.p_h, 1e6 * hertz.approach),
         Sq_nm=1e9 * contact.roughness,
-        shown=Shown.of(contact, problem.grid.mesh),
+        surface=SurfaceOnGrid.of(contact, problem.grid.mesh),
     )
     overlaps = result.overlap.largest_nm > tolerance * nm
     broken = first_broken(_equations(result, outcome, tolerance))

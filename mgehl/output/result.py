@@ -7,7 +7,7 @@ from mgehl.output.film_error import NOT_ASKED, FilmError
 from mgehl.output.friction_result import FrictionResult
 from mgehl.output.mixed_result import MixedResult
 from mgehl.output.resolution import Resolution
-from mgehl.output.surface import Shown
+from mgehl.output.surface import SurfaceOnGrid
 from mgehl.output.words import result_words
 from mgehl.solver.inequality import Inequality
 from mgehl.solver.mass import CLOSED, Mass
@@ -173,7 +173,7 @@ class Result:
     contradictions: list | None = None
     """Nodes that can be neither film nor contact, of an iteration whose sets cycle."""
     resolution: Resolution | None = None
-    shown: Shown | None = None
+    surface: SurfaceOnGrid | None = None
     """How well the grid shows a dry contact's surface; of lubricated ones `resolution` says so."""
     groups: Groups | None = None
     """By the oil's own viscosity, as `moes_film` and `formulas`: no heat of shear has thinned it."""

@@ -20,7 +20,7 @@ SMOOTH, RESOLVED, COARSE, GRIDS, UNKNOWN = "smooth", "resolved", "coarse", "grid
 
 
 @dataclass(frozen=True)
-class Shown:
+class SurfaceOnGrid:
     """How well a grid shows the surface of a contact without a film."""
 
     verdict: str

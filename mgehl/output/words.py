@@ -34,7 +34,7 @@ def where_to_read(result):
     if not result.converged:
         return [FAILED]
     is_coarse = result.resolution and result.resolution.verdict != "resolved"
-    is_another = result.shown and result.shown.verdict == GRIDS
+    is_another = result.surface and result.surface.verdict == GRIDS
     return [UNRESOLVED] if is_coarse or is_another or _contact_is_the_grids(result) else []
 
 
@@ -79,7 +79,8 @@ def _dry_lines(result):
         approach += " (of a line contact it counts from a distance of a: loads cannot be compared)"
     yield f"approach {approach}"
     yield f"contact: {_size(contact)}; {_where(contact)}; largest gap {contact.largest_gap_nm:.1e} nm"
-    if result.shown and (shown := surface_words(result.shown.verdict, result.shown.wave_nodes)):
+    surface = result.surface
+    if surface and (shown := surface_words(surface.verdict, surface.wave_nodes)):
         yield f"surface: {shown}"
     yield f"load error {result.load_error:.1e}, complementarity {result.complementarity_error:.1e}"
     yield _work(result)

@@ -62,7 +62,8 @@ class WedgeProblem(Problem):
 
 @dataclass(frozen=True)
 class Found:
-    """An answer on another grid, from which one begins: whole arrays on rank 0, None elsewhere."""
+    """An answer on another grid, from which one begins: whole arrays on rank 0, None elsewhere. Grids of a
+    bearing share no nodes: each begins half a cell outside of the pad."""
 
     mesh: Mesh
     P: np.ndarray | None

@@ -83,11 +83,11 @@ WAVES = {"surface": {"kind": "waviness", "amplitude": 1e-7}, "discretization": {
 def test_a_surface_that_the_grid_does_not_show_is_named(wavelength, verdict):
     """Waves of less than four cells have the contact of other waves: pressures may be a third."""
     found = solved(WAVES, {"surface": {"wavelength_x": wavelength}, "grid": {"nodes": 65}})
-    assert found.result.converged and found.result.shown.verdict == verdict
+    assert found.result.converged and found.result.surface.verdict == verdict
     told = str(found)
     assert (
         ("THE SURFACE IS THE GRID'S" in told)
         == ("how to do better" in told)
         == (verdict == "grid-determined")
     )
-    assert f"{found.result.shown.wave_nodes:.1f} nodes in its shortest wave" in told
+    assert f"{found.result.surface.wave_nodes:.1f} nodes in its shortest wave" in told
