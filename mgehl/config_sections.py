@@ -111,7 +111,7 @@ class SolverSection:
         high=1000.0)
     squeeze: float = number(0.0, "rate of implicit time steps, per residual and cell (contact, "
         "continuation: at least 3)", low=0.0, high=1e6)
-    error: bool = switch(True, "whether coarser grids are solved, too, for bands: two, in time one")
+    error: bool = switch(True, "whether coarser grids are solved, too, for bands: two, in time or dry one")
     # fmt: on
 
 

@@ -16,7 +16,6 @@ from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint, begin_run
 from mgehl.output.diary import Comparison, Diary
 from mgehl.output.directory import make_directory, prepare_directory
-from mgehl.output.dry_summary import summarise_dry
 from mgehl.output.film_error import film_error
 from mgehl.output.finish import finish_run
 from mgehl.output.forecast import check_memory
@@ -37,17 +36,16 @@ from mgehl.output.surroundings import versions
 from mgehl.output.time_error import time_error, with_bands
 from mgehl.output.users_axes import solution_of
 from mgehl.run_bearing import solve_bearing
+from mgehl.run_dry import DrySolve
 from mgehl.solver.beginning import begin
 from mgehl.solver.beside import Beside
 from mgehl.solver.closing import close_account
-from mgehl.solver.dry import guess_on_finest, solve_dry
 from mgehl.solver.from_config import SetUp, set_up
 from mgehl.solver.in_time import march, march_beside
 from mgehl.solver.journal import Asked
 from mgehl.solver.nested import single_loop
-from mgehl.solver.on_grid import LevelSolve
 from mgehl.solver.recipe_words import plain
-from mgehl.solver.restart import interpolated, solve_from
+from mgehl.solver.restart import solve_from
 from mgehl.solver.task import Task
 
 
@@ -255,16 +253,8 @@ class _LoadedSolve:
 
     def without_a_fluid(self):
         """Its `Solution` as a dry contact."""
-        task, limits = self._task, self.parts.settings.newton
-        problem = task.problem()
-        if self.start:
-            guess = interpolated(problem, self.start, self.parts.frame).P
-        else:
-            guess = guess_on_finest(task.hierarchy, task.contact, task.settings.scheme)
-        tell = partial(task.monitor, LevelSolve(task.mesh.nx, None, True))
-        outcome = solve_dry(problem, guess, limits.tolerance, limits.max_steps, tell, task.journal)
-        result = summarise_dry(problem, outcome, limits.tolerance, self._making(self.monitor.steps))
-        return self._solution(problem, outcome, result)
+        solve = DrySolve(self._task, self.monitor)
+        return self._solution(*solve.found(self.start, self.parts.frame))
 
     @cached_property
     def _task(self):

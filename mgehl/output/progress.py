@@ -34,8 +34,10 @@ class Progress:
         self._speaker.row(row, left)
 
     def beside(self, level, cycle):
-        """Tell of a Newton cycle that does not lead to the answer; the history does not keep it."""
-        self._speaker.row(self._row(newton_row, level, cycle))
+        """Tell of a cycle that does not lead to the answer; the history does not keep it. All but those of
+        dry contacts are Newton's."""
+        kind = dry_row if self._kind is dry_row else newton_row
+        self._speaker.row(self._row(kind, level, cycle))
 
     def tell(self, row, left):
         """Tell of a row that the history does not keep, with the seconds that are left."""

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 from mgehl.model.contact import Groups
+from mgehl.output.dry_error import DryError
 from mgehl.output.film_error import NOT_ASKED, FilmError
 from mgehl.output.friction_result import FrictionResult
 from mgehl.output.mixed_result import MixedResult
@@ -196,6 +197,8 @@ class Result:
     """{choice: value} of `mgehl.solver.recipe`: how it was solved; None in older results."""
 
     # Of a loaded contact without a fluid.
+    dry_error: DryError | None = None
+    """Bands about its numbers; None in older results."""
     approach_um: float = None
     """Of the bodies, from where their smooth shapes would touch."""
     boundary_nodes: int = None

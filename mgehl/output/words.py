@@ -1,6 +1,7 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
 from mgehl.output.digits import pressure_words, with_band
+from mgehl.output.dry_error import no_band as no_dry_band
 from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.friction_result import friction_lines
 from mgehl.output.mixed_words import filling_words, mixed_lines
@@ -72,13 +73,17 @@ def _bearing_lines(result):
 
 def _dry_lines(result):
     contact, hertz = result.contact, result.hertz
-    largest, theirs = pressure_words(result.max_pressure_GPa), pressure_words(hertz.max_pressure_GPa)
-    yield f"largest pressure {largest}, that of Hertz {theirs}"
-    approach = f"{with_band(result.approach_um)} um, that of Hertz {with_band(hertz.approach_um)}"
+    error = result.dry_error or no_dry_band(NOT_ASKED.how)
+    largest = pressure_words(result.max_pressure_GPa, error.max_pressure_GPa)
+    yield f"largest pressure {largest}, that of Hertz {pressure_words(hertz.max_pressure_GPa)}"
+    approach = with_band(result.approach_um, error.approach_um)
+    approach = f"{approach} um, that of Hertz {with_band(hertz.approach_um)}"
     if result.edge.nodes_along_y is None:
         approach += " (of a line contact it counts from a distance of a: loads cannot be compared)"
     yield f"approach {approach}"
-    yield f"contact: {_size(contact)}; {_where(contact)}; largest gap {contact.largest_gap_nm:.1e} nm"
+    area = _size(contact, error.area_fraction)
+    yield f"contact: {area}; {_where(contact)}; largest gap {contact.largest_gap_nm:.1e} nm"
+    yield f"{'no band' if error.area_fraction is None else 'bands'}: {error.how}"
     surface = result.surface
     if surface and (shown := surface_words(surface.verdict, surface.wave_nodes)):
         yield f"surface: {shown}"
@@ -183,8 +188,12 @@ def _overlap(overlap):
         yield f"THE BODIES OVERLAP at {overlap.nodes} nodes by up to {overlap.largest_nm:.2e} nm"
 
 
-def _size(contact):
-    return f"{contact.nodes} nodes, {100 * contact.area_fraction:.2f} % of the Hertz area"
+def _size(contact, half_width=None):
+    """Nodes and area of contact, with the band about its part of the Hertz area if there is one."""
+    per_cent = f"{100 * contact.area_fraction:.2f}"
+    if half_width is not None:
+        per_cent = with_band(100 * contact.area_fraction, 100 * half_width)
+    return f"{contact.nodes} nodes, {per_cent} % of the Hertz area"
 
 
 def _where(contact):

@@ -98,6 +98,35 @@ def guess_on_finest(hierarchy, contact, scheme):
     return contact.guessed_pressure(grids[-1].X, grids[-1].Y) if P is None else P
 
 
+@dataclass(frozen=True)
+class OnCoarser:
+    """What the next coarser grid says of a dry contact."""
+
+    nodes: int
+    settled: bool
+    largest: float
+    """Largest pressure, in p_h."""
+    apart: float
+    """Mean size of the pressure's differences from the finer grid, by pressure."""
+    H0: float
+
+
+def on_coarser(hierarchy, problem, P, solve):
+    """The `OnCoarser` of the contact of a `problem` on the finest grid, from its pressure P (lines, nx).
+
+    None without such a grid. `solve` finds the `Outcome` of a problem from a guess (collective).
+    """
+    level = len(hierarchy.grids) - 2
+    if level < 0:
+        return None
+    grid, there = hierarchy.grids[level], hierarchy.transfers[level].inject(P)
+    coarser = ContactProblem(grid, hierarchy.deflections[level], problem.contact, problem.scheme)
+    outcome = solve(coarser, there)
+    found = outcome.state.P
+    apart = grid.sum(np.vdot(found, np.abs(found - there))) / grid.sum(found.sum())
+    return OnCoarser(grid.mesh.nx, outcome.converged, grid.max(found), float(apart), outcome.state.H0)
+
+
 def dry_pressure(problem, P, largest_gap=GUESS_GAP):
     """Roughly the pressure (lines, nx) with which the bodies carry their load; `P` is a guess. Bodies are
     up to `largest_gap` apart where they press, and overlap by no more, in units of H."""

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from contacts import solved
@@ -74,7 +76,9 @@ def test_contact_that_reaches_the_boundary_is_none(settled, ends):
     assert "a larger grid.x or grid.y is needed" in result.reason
 
 
-WAVES = {"surface": {"kind": "waviness", "amplitude": 1e-7}, "discretization": {"contact_model": "dry"}}
+DRY = {"discretization": {"contact_model": "dry"}}
+WAVES = {"surface": {"kind": "waviness", "amplitude": 1e-7}} | DRY
+DRY_WAVES = WAVES | {"surface": WAVES["surface"] | {"wavelength_x": 300e-6}}
 
 
 @pytest.mark.parametrize(
@@ -91,3 +95,48 @@ def test_a_surface_that_the_grid_does_not_show_is_named(wavelength, verdict):
         == (verdict == "grid-determined")
     )
     assert f"{found.result.surface.wave_nodes:.1f} nodes in its shortest wave" in told
+
+
+def finds(error, coarse, fine):
+    """Whether the bands of a `DryError` about the `Result` that has it hold what a finer grid says."""
+    area, approach = coarse.contact.area_fraction, coarse.approach_um
+    return (
+        abs(fine.contact.area_fraction - area) <= error.area_fraction,
+        abs(fine.max_pressure_GPa - coarse.max_pressure_GPa) <= error.max_pressure_GPa,
+        abs(fine.approach_um - approach) <= error.approach_um,
+    )
+
+
+class TestBands:
+    @pytest.mark.parametrize("kind, nodes", [("point", 65), ("point", 129), ("line", 129)])
+    def test_they_hold_what_is_exact(self, kind, nodes):
+        """A smooth contact is that of Hertz: area pi, or width 2."""
+        found = solved({"contact": {"kind": kind}, "grid": {"nodes": nodes}}, DRY).result
+        error, hertz = found.dry_error, found.hertz
+        exact = replace(
+            found, contact=replace(found.contact, area_fraction=1.0),
+            max_pressure_GPa=hertz.max_pressure_GPa, approach_um=hertz.approach_um,
+        )  # fmt: skip
+        assert finds(error, found, exact) == (True, True, True)
+        assert error.area_fraction < 0.1 * 65 / nodes
+        assert found.max_pressure_band_GPa == error.max_pressure_GPa < 0.02 * hertz.max_pressure_GPa
+        assert error.convolutions > 0.0
+
+    def test_they_hold_what_a_finer_grid_says_of_a_rough_contact(self):
+        coarse, fine = (solved(DRY_WAVES, {"grid": {"nodes": n}}).result for n in (65, 257))
+        assert finds(coarse.dry_error, coarse, fine) == (True, True, True)
+        assert coarse.dry_error.area_fraction < 0.05 and coarse.dry_error.how.endswith("to 33 nodes")
+        assert "bands: that of the area by the length of its edge" in str(coarse)
+
+    @pytest.mark.parametrize(
+        "tables, why",
+        [
+            ({"solver": {"error": False}}, "not asked for"),
+            ({"surface": {"wavelength_x": 40e-6}}, "the surface is the grid's"),
+            ({"solver": {"max_steps": 1}}, "the run has not converged"),
+        ],
+    )
+    def test_none_says_why(self, tables, why):
+        error = solved(DRY_WAVES, tables, {"grid": {"nodes": 65}}).result.dry_error
+        assert error.area_fraction is error.max_pressure_GPa is error.approach_um is None
+        assert why in error.how
