@@ -219,12 +219,12 @@ def test_motion_that_has_turned_is_motion_of_its_direction(tmp_path, monkeypatch
     scheme = {"discretization.couette": "3B", "discretization.face_mobility": "linear-gap"}
     ball = BALL | scheme | {"grid.x": [-2.5, 2.5], "grid.y": [-2.5, 2.5], "time.step": 0.03 * UNIT}
     (tmp_path / "angle.csv").write_text("0,0\n1e-7,90\n1,90\n")
-    (tmp_path / "speed.csv").write_text("0,0.09\n1e-7,0.09\n1,0.09\n")
+    (tmp_path / "speed.csv").write_text("0,0.088\n1e-7,0.09\n1,0.09\n")
     start = mgehl.solve(mgehl.load(None, BALL | scheme | {"grid.x": [-2.5, 2.5], "grid.y": [-2.5, 2.5]}))
     turned, there = {"motion.angle": str(tmp_path / "angle.csv")}, {"motion.angle": 90.0}
     # Where motion turned no steady state is kept.
     monkeypatch.setattr("mgehl.solver.in_time.Reference", SimpleNamespace(of=lambda *steady: None))
-    steps = {"time.end": 0.6 * UNIT, "motion.speed": str(tmp_path / "speed.csv")}  # the same first one
+    steps = {"time.end": 0.6 * UNIT, "motion.speed": str(tmp_path / "speed.csv")}  # the same steps
     one, other = (
         mgehl.solve(mgehl.load(None, ball | steps | motion), start=start) for motion in (turned, there)
     )

@@ -18,6 +18,9 @@ GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 LOOKS_IN = 3
 """Times within a step at which a function of the user's own is asked whether it goes straight on."""
 
+RIPPLE = 0.01
+"""Part of the largest value that counts as a range at the least: what was measured is never constant."""
+
 ROUNDED = 1e-6
 """Part of a run by which a table may end before it: its times have so many digits."""
 
@@ -52,8 +55,14 @@ class Course:
         return ()
 
     def bend(self, begin, end, until):
-        """Largest part of its range `until` a time by which it leaves a straight line between two times, at
-        which it has no kink."""
+        """Largest part of its range `until` a time by which it leaves a straight line between two times."""
+        if not (off := self.off(begin, end, until)):
+            return 0.0
+        least, most = self.range(until)
+        return float(off / max(most - least, off, RIPPLE * max(abs(least), abs(most))))
+
+    def off(self, begin, end, until):
+        """By how much it leaves that line."""
         return 0.0
 
     def times(self, end):
@@ -146,6 +155,12 @@ class Table(Course):
     def kinks(self):
         return tuple(self._columns[0])
 
+    def off(self, begin, end, until):
+        times, values = self._columns
+        within = (times > begin) & (times < end)
+        straight = np.interp(times[within], [begin, end], self.values_at([begin, end]))
+        return np.abs(values[within] - straight).max(initial=0.0)
+
     def times(self, end):
         return 0.0, *(float(t) for t in self._columns[0] if 0.0 < t < end), end
 
@@ -211,14 +226,13 @@ class Own(Course):
         self.function.check_arguments("t")
         self.range(end)
 
-    def bend(self, begin, end, until):
+    def off(self, begin, end, until):
         times, values = self._until(until)
-        within, spread = (times > begin) & (times < end), np.ptp(values)
+        within = (times > begin) & (times < end)
         few = np.linspace(begin, end, LOOKS_IN + 2)
         there = np.array([self.value(t) for t in few])
         points, found = np.append(few, times[within]), np.append(there, values[within])
-        off = np.abs(found - np.interp(points, [begin, end], there[[0, -1]])).max()
-        return float(off / max(spread, np.ptp(found))) if off else 0.0
+        return np.abs(found - np.interp(points, [begin, end], there[[0, -1]])).max()
 
     def value(self, t):
         value = float(self.function.array((), t))

@@ -1,5 +1,6 @@
 """How long the next step in time is: by the cells that surfaces go in it, and by its error."""
 
+from bisect import bisect_right
 from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, inf, sqrt
@@ -20,12 +21,11 @@ GROWTH, LEAST_GROWTH = 1.5, 0.3
 """Of a step over the one before: more is unstable by the second backward formula (2.4), or seldom right."""
 
 STRAIGHT = 0.05
-"""Part of its range by which a function of time may leave a straight line within a step: a wave has seven
+"""Part of its range by which speed, load or angle may leave a straight line within a step: a wave has seven
 steps."""
 
-SHORTEST = 0.02
-"""Cells that the fastest surfaces of a run go in the shortest step by which a kink or a jump is met. Steps
-of 1e-4 cells do not settle: beside their squeeze the rest is lost."""
+SHORTEST = 1e-3
+"""Cells that the fastest surfaces of a run go in the shortest step by which a kink or a jump is met."""
 
 HALVINGS = 10
 """Times that a step is halved before a run is given up."""
@@ -81,20 +81,29 @@ class Pace:
         return min(found * LEAST_CELLS / cells, GROWTH * before)
 
     def fitted(self, t, step):
-        """As much of a step as time is left, up to the next kink, as surfaces may go cells, and as speed,
-        load and angle go straight on: what happens within a step is not seen."""
-        left = self.scene.end - t
-        kinks = [kink - t for kink in self.scene.kinks()]
-        # The end of a table may be that of the run but for rounding.
-        kinks = [each for each in kinks if each < left - ROUNDED * self.scene.end]
-        ends = [left, *(each for each in kinks if each > max(self._shortest, JUST * self.scene.end))]
-        step, nearest = self._in_cells(t, step), min(ends)
+        """As much of a step as time is left, as surfaces may go cells, and as speed, load and angle go
+        straight on: what happens within a step is not seen. It ends at a kink if there is one."""
+        left, step = self.scene.end - t, self._in_cells(t, step)
+        nearest = self._end(t, left, step)
         while (step := min(step, nearest)) > self._shortest and self.scene.bend(t, t + step) > STRAIGHT:
             step = max(0.5 * step, self._shortest)
         if step >= nearest * (1.0 - JUST):
             return nearest
         # No crumb is left over.
         return 0.5 * nearest if step > 0.6 * nearest else step
+
+    def _end(self, t, left, step):
+        """The kink, or the end of the run, that a step may end at: of those within it the last up to which
+        all goes straight on, else the next one."""
+        end = self.scene.end
+        kinks = sorted(kink - t for kink in self.scene.kinks())
+        # The end of a table may be that of the run but for rounding.
+        kinks = [each for each in kinks if max(self._shortest, JUST * end) < each < left - ROUNDED * end]
+        within = [each for each in [*kinks, left] if each <= step]
+        if not within:
+            return min([left, *kinks])
+        straight = bisect_right(within, STRAIGHT, key=lambda each: self.scene.bend(t, t + each))
+        return within[max(straight - 1, 0)]
 
     def _in_cells(self, t, step):
         """A step in which the surfaces go no more cells than they may, a whole number where they go more

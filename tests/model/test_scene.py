@@ -126,14 +126,45 @@ def test_a_step_that_is_asked_for_is_cut_to_the_cells_that_a_film_bears(viscosit
     assert pace.fitted(0.0, pace.first()) == pytest.approx(taken * cell, rel=1e-3)
 
 
+def loads_seen(load, end, step, speed=0.01):
+    """Loads in N at the ends of a run's steps, none longer than `step`."""
+    found = scene({"contact.load": str(load), "time.end": end, "motion.speed": speed})
+    pace, t, seen = Pace(found, Mesh(65, 65, (-2.0, 2.0), (-2.0, 2.0)), step), 0.0, []
+    while t < found.end * (1.0 - 1e-9):
+        t += pace.fitted(t, step)
+        seen.append(found.load.value(t))
+    return seen
+
+
 def test_no_step_goes_over_what_a_function_of_time_does(tmp_path):
     """A load that is three times as large for 20 us of 1 ms: steps of 100 us saw nothing of it."""
     pulse = "20.0 * (1.0 + 2.0 * np.exp(-(((t - 5.3e-4) / 1e-5) ** 2)))"
     (tmp_path / "mine.py").write_text(f"import numpy as np\ndef load(t):\n    return {pulse}\n")
-    times = {"contact.load": f"{tmp_path}/mine.py:load", "time.end": 1e-3, "motion.speed": 0.01}
-    found = scene(times)
-    pace, t, seen = Pace(found, Mesh(65, 65, (-2.0, 2.0), (-2.0, 2.0)), 1e-4), 0.0, []
-    while t < found.end * (1.0 - 1e-9):
-        t += pace.fitted(t, 1e-4)
-        seen.append(found.load.value(t))
+    seen = loads_seen(f"{tmp_path}/mine.py:load", 1e-3, 1e-4)
     assert max(seen) > 0.9 * 60.0 and len(seen) < 40
+
+
+def test_no_step_goes_over_a_pulse_of_a_table(tmp_path):
+    """Twice the load for 1 ms of a third of a second, in which slow surfaces go 0.0076 cells: no step ended
+    in it."""
+    pulse = tmp_path / "pulse.csv"
+    pulse.write_text("0,20\n0.15,20\n0.1505,40\n0.151,20\n0.3,20\n")
+    seen = loads_seen(pulse, 0.3, 0.05, speed=1e-4)
+    assert max(seen) == 40.0 and len(seen) < 12
+
+
+def test_a_table_of_many_rows_takes_no_step_for_each(tmp_path):
+    """Ten thousand rows of one wave are seen as the wave."""
+    times = np.linspace(0.0, 1e-2, 10_001)
+    wave = tmp_path / "wave.csv"
+    np.savetxt(wave, np.column_stack([times, 20.0 + 10.0 * np.sin(2e2 * np.pi * times)]), delimiter=",")
+    seen = loads_seen(wave, 1e-2, 1e-3)
+    assert max(seen) > 29.5 and min(seen) < 10.5 and len(seen) < 40
+
+
+def test_noise_of_a_load_that_stays_takes_no_step_for_each_row(tmp_path):
+    times = np.linspace(0.0, 1e-2, 1_001)
+    noise = tmp_path / "noise.csv"
+    load = 20.0 + 1e-3 * np.random.default_rng(1).standard_normal(times.size)
+    np.savetxt(noise, np.column_stack([times, load]), delimiter=",")
+    assert len(loads_seen(noise, 1e-2, 1e-3)) < 40
