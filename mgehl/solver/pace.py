@@ -14,6 +14,9 @@ MOST_CELLS, MOST_CELLS_ROUGH = 4.0, 1.0
 FIRST_STEPS = 200
 """Steps that a run is expected to take where nothing moves."""
 
+COUNTED = 1000
+"""Steps that are counted before a run; what comes after these is taken to be as many a second."""
+
 AIM = 2e-3
 """Rms of what a step's pressures differ from a straight line in time, over their own rms."""
 
@@ -32,17 +35,6 @@ HALVINGS = 10
 
 JUST = 1e-9
 """Part of a step by which times may be off."""
-
-
-def expected_steps(scene, mesh, fixed=None):
-    """Steps that a `Scene` will take on a mesh, if none is halved; of smooth bodies a guess."""
-    times = [scene.end * part / FIRST_STEPS for part in range(FIRST_STEPS + 1)]
-    ways = [scene.way(*ends) for ends in pairwise(times)]
-    cells, mean = (sum(each(way, mesh) for way in ways) for each in (scene.fastest, scene.most_cells))
-    in_inlet = ceil(mean / min(scene.most_in_inlet(t, mesh) for t in scene.extremes))
-    if fixed:
-        return max(ceil(scene.end / fixed), ceil(cells / scene.most_asked), in_inlet)
-    return max(int(cells / (MOST_CELLS_ROUGH if scene.moves else 1.0)), in_inlet, FIRST_STEPS // 4)
 
 
 @dataclass
@@ -145,3 +137,20 @@ class Retraced:
     def fitted(self, _t, step):
         """That step."""
         return step
+
+
+def expected_steps(scene, mesh, fixed=None):
+    """Steps that a `Scene` will take on a mesh, if none is halved. What smooth bodies' pressures ask for is
+    not known before: a cell each is a guess."""
+    pace, t, taken = Pace(scene, mesh, fixed), 0.0, 0
+    step = pace.first()
+    while t < scene.end * (1.0 - JUST) and taken < COUNTED:
+        fitted = pace.fitted(t, step)
+        t, taken = t + fitted, taken + 1
+        step = pace.next(t, fitted, 0.0, False)
+    steps = ceil(taken * scene.end / t)
+    if fixed or scene.moves:
+        return steps
+    times = [scene.end * part / FIRST_STEPS for part in range(FIRST_STEPS + 1)]
+    cells = sum(scene.most_cells(scene.way(*ends), mesh) for ends in pairwise(times))
+    return max(steps, int(cells), FIRST_STEPS // 4)

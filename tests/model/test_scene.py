@@ -5,7 +5,7 @@ from mgehl.config import load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from
 from mgehl.kinds.time import scene_of
-from mgehl.solver.pace import Pace
+from mgehl.solver.pace import Pace, expected_steps
 
 WAVES = {"surface.kind": "waviness", "surface.amplitude": 1e-8, "surface.wavelength_x": 1e-4}
 
@@ -168,3 +168,15 @@ def test_noise_of_a_load_that_stays_takes_no_step_for_each_row(tmp_path):
     load = 20.0 + 1e-3 * np.random.default_rng(1).standard_normal(times.size)
     np.savetxt(noise, np.column_stack([times, load]), delimiter=",")
     assert len(loads_seen(noise, 1e-2, 1e-3)) < 40
+
+
+@pytest.mark.parametrize("periods", [10, 1000])
+def test_steps_of_a_wave_are_foretold(tmp_path, periods):
+    """Ten or so in each period, though surfaces hardly move meanwhile; of many the first are counted."""
+    end = 1e-5 * periods
+    wave = f"20.0 * (1.0 + 0.5 * math.sin({2e5 * np.pi} * t))"
+    (tmp_path / "mine.py").write_text(f"import math\ndef load(t):\n    return {wave}\n")
+    load = f"{tmp_path}/mine.py:load"
+    found = scene({"contact.load": load, "time.end": end, "motion.speed": 0.01})
+    steps = expected_steps(found, Mesh(65, 65, (-2.0, 2.0), (-2.0, 2.0)))
+    assert 7 * periods < steps < 20 * periods
