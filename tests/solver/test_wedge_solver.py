@@ -157,3 +157,11 @@ def test_too_few_steps_are_not_converged(solve_tables):
     """What is asked for is beyond rounding."""
     _, outcome = solve_tables(case("blocked exit"), 1e-18, 1)
     assert not outcome.converged and "residual" in outcome.reason
+
+
+def test_behind_walls_all_around_nothing_flows():
+    """What rounding makes there was told as hundreds of times what flows through."""
+    walls = {"contact": {"kind": "wedge"}, "wedge": {"blocked_exit": True, "sides": "closed"}}
+    result = solved(walls, {"grid": {"nodes": 65}}).result
+    assert result.converged and result.flux_imbalance == 0.0
+    assert result.mass.enters < 1e-6 * result.mass.carried_in and result.mass.made_share < 1e-6
