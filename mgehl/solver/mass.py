@@ -39,7 +39,7 @@ class Mass:
     largest_node: float
     """The largest such difference of a single node, whatever its sign."""
     carried_in: float
-    """What flows into the domain, from whatever side."""
+    """What flows into the domain, from whatever side; at the least `LEAST_CARRIED`."""
 
     @property
     def made(self):

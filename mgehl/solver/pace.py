@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, inf, sqrt
 
+import numpy as np
+
 from mgehl.model.course import ROUNDED
 from mgehl.model.scene import LEAST_CELLS
 
@@ -117,14 +119,20 @@ class Pace:
         return self.scene.most_cells(way, self.mesh)
 
 
+FEW = 2
+"""Kinks within two steps from which on they are rows of something smooth."""
+
+
 class Retraced:
     """The steps of a march that has ended, two at a time, but for kinks: those of a comparison."""
 
     def __init__(self, times, scene):
         """`times` are the ends of its steps in s."""
-        end = times[-1]
-        kinks = [kink for kink in scene.kinks() if kink < end]
-        self._times, self._crumb = sorted({*times[1::2], *kinks, end}), JUST * end
+        ends = sorted({0.0, *times[1::2], times[-1]})
+        kinks = np.sort(scene.kinks())
+        within = [kinks[(kinks > begin) & (kinks < end)] for begin, end in pairwise(ends)]
+        sharp = [float(kink) for each in within if len(each) <= FEW for kink in each]
+        self._times, self._crumb = sorted({*ends, *sharp}), JUST * times[-1]
 
     def first(self):
         """The first step in s."""

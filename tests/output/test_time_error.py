@@ -42,6 +42,15 @@ def test_steps_are_taken_two_at_a_time_but_for_kinks(tmp_path):
     assert ends == pytest.approx([2.0, 2.5, 3.0, 4.0])
 
 
+def test_rows_of_something_smooth_are_no_kinks(tmp_path):
+    """A comparison took a step for each of them."""
+    times = np.linspace(0.0, 4e-3, 4001)
+    table = tmp_path / "load.csv"
+    np.savetxt(table, np.column_stack([times, 15.0 + 5.0 * np.sin(1e3 * times)]), delimiter=",")
+    pace = Retraced([1e-3, 2e-3, 3e-3, 4e-3], scene(contact__load=str(table), time__end=4e-3))
+    assert pace.first() == pytest.approx(2e-3) and pace.next(2e-3) == pytest.approx(2e-3)
+
+
 def row(t, step, value, **more):
     columns = {name: value for name in MEANS} | {"pressure_crest": 0.0, "load_on_solids": 0.0}
     way = 1e6 * 0.09 * t
