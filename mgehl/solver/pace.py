@@ -8,7 +8,6 @@ from math import ceil, inf, sqrt
 import numpy as np
 
 from mgehl.model.course import ROUNDED
-from mgehl.model.scene import LEAST_CELLS
 
 MOST_CELLS, MOST_CELLS_ROUGH = 4.0, 1.0
 """Cells that the surfaces go in a step at the most: smooth ones, and those whose heights move."""
@@ -68,11 +67,7 @@ class Pace:
         if self.scene.moves:
             return GROWTH * before
         wanted = sqrt(AIM / error) if error > 0.0 else inf
-        found = before * min(1.0 if halved else GROWTH, max(LEAST_GROWTH, wanted))
-        cells = self._mean(self.scene.velocity(t) * found)
-        if halved or not 0.0 < cells < LEAST_CELLS:
-            return found
-        return min(found * LEAST_CELLS / cells, GROWTH * before)
+        return max(before * min(1.0 if halved else GROWTH, max(LEAST_GROWTH, wanted)), self._shortest)
 
     def fitted(self, t, step):
         """As much of a step as time is left, as surfaces may go cells, and as speed, load and angle go

@@ -5,7 +5,7 @@ from mgehl.config import load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from
 from mgehl.kinds.time import scene_of
-from mgehl.solver.pace import Pace, expected_steps
+from mgehl.solver.pace import AIM, SHORTEST, Pace, expected_steps
 
 WAVES = {"surface.kind": "waviness", "surface.amplitude": 1e-8, "surface.wavelength_x": 1e-4}
 
@@ -180,3 +180,11 @@ def test_steps_of_a_wave_are_foretold(tmp_path, periods):
     found = scene({"contact.load": load, "time.end": end, "motion.speed": 0.01})
     steps = expected_steps(found, Mesh(65, 65, (-2.0, 2.0), (-2.0, 2.0)))
     assert 7 * periods < steps < 20 * periods
+
+
+def test_a_step_is_as_short_as_its_error_asks_for():
+    """Of a light ball a film of 600 nm was 7600: no step went less than half of a cell."""
+    found, mesh = scene({"time.end": 1.0}), Mesh(65, 65, (-2.0, 2.0), (-2.0, 2.0))
+    pace, cell = Pace(found, mesh, None), mesh.dX * found.unit
+    assert pace.next(0.0, 0.1 * cell, 4.0 * AIM, halved=False) == pytest.approx(0.05 * cell)
+    assert pace.next(0.0, SHORTEST * cell, 4.0 * AIM, halved=False) == pytest.approx(SHORTEST * cell)
