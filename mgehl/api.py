@@ -94,12 +94,12 @@ def solve(
     from mgehl.stopping import StopOnCtrlC
 
     comm = MPI.COMM_WORLD if comm is None else comm
-    case = enter(config, comm)
+    is_path = isinstance(start, str | PathLike)
+    begin = on_every_rank(comm, on_first_rank(comm, read_run, start)) if is_path else start
+    case = enter(config, comm, begin if hasattr(begin, "config") else None)
     if comm.rank == 0:
         for words in implausible(case.config, case.contact):
             warn(f"unusual: {words}", stacklevel=2)
-    is_path = isinstance(start, str | PathLike)
-    begin = on_every_rank(comm, on_first_rank(comm, read_run, start)) if is_path else start
     if begin is not None:
         on_first_rank(comm, check_start, begin, case)
     try:

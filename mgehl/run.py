@@ -45,7 +45,7 @@ from mgehl.solver.in_time import march, march_beside
 from mgehl.solver.journal import Asked
 from mgehl.solver.nested import single_loop
 from mgehl.solver.recipe_words import plain
-from mgehl.solver.restart import solve_from
+from mgehl.solver.restart import solve_from, with_room_for
 from mgehl.solver.task import Task
 
 
@@ -65,12 +65,15 @@ class Watch:
     """Whether one is drawn: it takes a second, as long as many a case of a study."""
 
 
-def enter(config, comm):
+def enter(config, comm, start=None):
     """The `Case` of a `Config`, made once for all that is done with it, and good to be solved on `comm`.
 
-    Raises ConfigError where values do not fit each other, UserError where a rank may not take the memory.
+    An "auto" domain of a run in time holds that of the `Solution` that is its `start`, if any. Raises
+    ConfigError where values do not fit each other, UserError where a rank may not take the memory.
     """
     case = checked_case(config)
+    if start is not None and config.is_in_time:
+        case = checked_case(with_room_for(start, case, config))
     check_memory(case, comm.size)
     return case
 

@@ -80,9 +80,12 @@ def _begin(options, comm):
     file = chosen_config(options.config, options.settings)
     with naming_file(file, settings):
         tables = read_tables(file, settings)
-        case = enter(config_from_tables(tables), comm)
+        config = config_from_tables(tables)
+        start = _start(options.start_from, comm) if options.start_from else None
+        case = enter(config, comm, start)
     on_first_rank(comm, _complain, doubts(case.config, case.contact))
-    start = _start(options.start_from, case, comm) if options.start_from else None
+    if start:
+        on_first_rank(comm, _check_start, options.start_from, start, case)
     if start and comm.rank == 0:
         _complain(_differences(options.start_from, start, case.config))
     directory = Path(options.out or Path("runs") / file.stem)
@@ -142,19 +145,23 @@ def _differences(directory, start, config):
         yield f"--start-from {directory}: has not converged: a first guess only"
 
 
-def _start(directory, case, comm):
-    """The `Solution` of another run, whole on every rank; it must be of the same kind."""
+def _start(directory, comm):
+    """The `Solution` of another run, whole on every rank."""
     from mgehl.output.files import on_first_rank
     from mgehl.output.solution import on_every_rank
     from mgehl.output.stored import read_run
+
+    return on_every_rank(comm, on_first_rank(comm, read_run, directory))
+
+
+def _check_start(directory, start, case):
+    """Raise UserError where a `Solution` read from there cannot start a case, of another kind for one."""
     from mgehl.solver.restart import check_start
 
-    start = on_every_rank(comm, on_first_rank(comm, read_run, directory))
     try:
-        on_first_rank(comm, check_start, start, case)
+        check_start(start, case)
     except UserError as error:
         raise UserError(f"--start-from {directory}: {error}") from None
-    return start
 
 
 def _resume(options, comm):

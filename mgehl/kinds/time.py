@@ -176,7 +176,7 @@ def _wrong_with(key, value, end):
     if key != "motion.speed":
         return None if least > 0.0 else f"falls to {least:g}; must stay above 0"
     if least == most == 0.0:
-        return "is 0 throughout; give a number for a dry contact"
+        return "is 0 throughout; 1e-6 m/s is as good as rest, and a dry contact needs no time"
     return "begins below 0; turn motion.angle by 180 degrees" if found.value(0.0) < 0.0 else None
 
 

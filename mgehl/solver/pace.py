@@ -28,8 +28,9 @@ STRAIGHT = 0.05
 """Part of its range by which speed, load or angle may leave a straight line within a step: a wave has seven
 steps."""
 
-SHORTEST = 1e-3
-"""Cells that the fastest surfaces of a run go in the shortest step by which a kink or a jump is met."""
+SHORTEST, SHORTEST_PART = 1e-3, 1e-4
+"""The shortest step by which a kink or a jump is met, the smaller of two: in cells that the fastest surfaces
+go, and as a part of the run."""
 
 HALVINGS = 10
 """Times that a step is halved before a run is given up."""
@@ -54,7 +55,7 @@ class Pace:
 
     @property
     def _shortest(self):
-        return SHORTEST * self.scene.unit * self.mesh.dX
+        return min(SHORTEST * self.scene.unit * self.mesh.dX, SHORTEST_PART * self.scene.end)
 
     def first(self):
         """The first step in s."""
@@ -67,7 +68,8 @@ class Pace:
         if self.scene.moves:
             return GROWTH * before
         wanted = sqrt(AIM / error) if error > 0.0 else inf
-        return max(before * min(1.0 if halved else GROWTH, max(LEAST_GROWTH, wanted)), self._shortest)
+        growth = 1.0 if halved else GROWTH
+        return min(max(before * max(LEAST_GROWTH, wanted), self._shortest), growth * before)
 
     def fitted(self, t, step):
         """As much of a step as time is left, as surfaces may go cells, and as speed, load and angle go

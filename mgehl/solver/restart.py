@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mgehl.config_value import AUTO
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import UserError
 from mgehl.grid.onto import onto
@@ -43,6 +44,9 @@ Convolutions of rough.toml on 129 nodes at 0.6 and 20 mm/s:
 Wherever the pressure is laid, in m or in units of a, with Hertz's change or without, linear or cubic, what
 differs by .27 takes more than from nothing.
 """
+
+SMOOTH = "cubic"
+"""How gaps lie on another grid: between nodes of a parabola a straight line is a film too thick."""
 
 LEAST_LEFT = 0.2
 """Part of a pressure that a forecast leaves at the least."""
@@ -90,6 +94,21 @@ def check_start(start, case):
             f"start: its heights differ by {100.0 * off:.3g} % from those that this run in time begins "
             "with: films go on between the same heights, moved by the same motion.slide_to_roll"
         )
+
+
+def with_room_for(start, case, config):
+    """The `Config` of a `Case` in time: where `config` has "auto", its domain holds that of the `Solution`
+    it goes on from, too. Films that are there may be thicker than those of the speeds to come."""
+    ours, theirs, grid = case.contact, start.contact, case.config.grid
+    if start.config.contact.kind != config.contact.kind:
+        return case.config
+    wider = {"x": theirs.x_scale / ours.x_scale, "y": theirs.y_scale / ours.y_scale}
+    ends = {}
+    for name in "x" if ours.is_line else "xy":
+        (first, last), old = (getattr(each, name) for each in (grid, start.config.grid))
+        if getattr(config.grid, name) == AUTO:
+            ends[name] = min(first, wider[name] * old[0]), max(last, wider[name] * old[1])
+    return replace(case.config, grid=replace(grid, **ends))
 
 
 def _other_heights(start, case):
@@ -239,7 +258,7 @@ def begun_in_time(problem, start, frame):
         wider = stood.x_scale / contact.x_scale, stood.y_scale / contact.y_scale
         old = _stretched(start.mesh.in_frame(frame), *wider)
         scale = start.contact.film_scale / contact.film_scale
-        H = scale * onto(mesh, old, frame.array(start.fields.H), outside=np.nan)
+        H = scale * onto(mesh, old, frame.array(start.fields.H), np.nan, SMOOTH)
     H = grid.scatter(H)
     state.H = np.where(np.isnan(H), state.H, np.maximum(H, problem.scheme.contact_law.contact_gap))
     return state
