@@ -29,8 +29,8 @@ STRAIGHT = 0.05
 steps."""
 
 SHORTEST, SHORTEST_PART = 1e-3, 1e-4
-"""The shortest step by which a kink or a jump is met, the smaller of two: in cells that the fastest surfaces
-go, and as a part of the run."""
+"""The shortest step by which a kink or a jump is met, the smaller of two: in cells that the fastest
+surfaces go, and as a part of the run."""
 
 HALVINGS = 10
 """Times that a step is halved before a run is given up."""
