@@ -34,10 +34,15 @@ _PRINTED = (
     (re.compile(r"(?<=[A-Za-z])(?<![\d.][eE])-(?=\d\b)"), lambda _: "^-"),
     (re.compile(r"(⁻?)([¹²³])"), lambda m: f"^{'-' if m[1] else ''}{'¹²³'.index(m[2]) + 1}"),
     (re.compile(r"/\s*\(([^()/]*)\)"), lambda m: "/" + "/".join(re.split(r"[ *]+", m[1].strip()))),
+    (re.compile(r"(?<=[A-Za-z])(?<![\d.][eE])(?=\d\b)"), lambda _: "^"),
+    (re.compile(r"(?<=[A-Za-z])\.(?=[A-Za-z])"), lambda _: "*"),
     (re.compile(r"\b(m?)Pas\b"), lambda m: f"{m[1]}Pa*s"),
-    (re.compile(r"\b([WJ]) */ *(m|kg)[ *]*K\b"), lambda m: f"{m[1]}/{m[2]}/K"),
+    (re.compile(r"\bNs\b"), lambda _: "N*s"),
+    (re.compile(r"(?<=\d)\s*r/min\b"), lambda _: " rpm"),
+    (re.compile(r"(?<=[WJ]) */ *(m|kg|m\^?3)[ *]*K\b"), lambda m: f"/{m[1].replace('m3', 'm^3')}/K"),
 )
-"""How data sheets print units that pint reads in another form: mPa·s, mm²/s, mm s-1, W/(m K), mPas."""
+"""How data sheets print units that pint reads in another form: mPa·s, mm²/s, mm s-1, W/(m K), mPas,
+kg/m3, mPa.s, Ns/m2, r/min."""
 
 EXAMPLES = {"K": "60 degC", "rad/s": "6000 rpm"}
 """Values of units that people seldom say in SI."""

@@ -26,6 +26,10 @@ SEPARATORS = ";", "\t", ",", None
 """None: blanks."""
 
 NUMBER = r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?"
+_DECIMAL_COMMA = r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?"
+COMMA_AND_BLANK = ", "
+"""Between numbers with decimal commas: 0,29, 0,31."""
+
 _LIKE_A_NUMBER = r"[-+]?\d[\d.,' ]*"
 """Of digits, but maybe no number: 1,234.56."""
 
@@ -64,7 +68,7 @@ class TextTable:
 def read_table(path):
     """The `TextTable` of a file. Raises OSError, FileError; NoTableError where it has no row of numbers."""
     rows, lines, separator, empty, headings, above = [], [], None, [], [], []
-    for number, line in enumerate(_text(path).splitlines(), 1):
+    for number, line in enumerate(read_content(path).splitlines(), 1):
         if not line.strip(" ") or _is_comment(line):
             headings += [line.strip().lstrip("#%/ ")] if line.strip() else []
             continue
@@ -180,7 +184,7 @@ def _no_number(path, line, column, words):
     return FileError(path, f"line {line}, column {column}: {words[column - 1][:40]!r} is no number")
 
 
-def _text(path):
+def read_content(path):
     """The text of a file: UTF-8, UTF-16 by its mark, else Latin 1; binary files raise NoTableError."""
     content = Path(path).read_bytes()
     encodings = ("utf-16",) if content.startswith((b"\xff\xfe", b"\xfe\xff")) else ("utf-8-sig", "latin-1")
@@ -196,6 +200,8 @@ def _text(path):
 
 def _separator(line):
     """What separates the numbers of a first row; False where the line is none."""
+    if re.fullmatch(rf"\s*{_DECIMAL_COMMA}(?:, +{_DECIMAL_COMMA})+\s*", line):
+        return COMMA_AND_BLANK
     for separator in SEPARATORS:
         if separator is None or separator in line:
             words = _words(line, separator)
@@ -226,6 +232,8 @@ def _is_number(word):
 
 def _row(path, line, text, separator):
     try:
+        if separator == COMMA_AND_BLANK:
+            return [float(word.replace(",", ".")) for word in text.split(separator)]
         return list(map(float, (text if separator == "," else text.replace(",", ".")).split(separator)))
     except ValueError:
         words = _words(text, separator)

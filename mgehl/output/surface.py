@@ -9,6 +9,9 @@ from mgehl.model.surface import Measured
 RESOLVED_NODES, SEEN_NODES = 8.0, 4.0
 """Nodes in the shortest wave from which on it is resolved, and below which the grid shows another one."""
 
+HARDLY_CURVED = 20.0
+"""Radius of a surface's form over the contact's larger one from which on it changes no contact."""
+
 SMOOTHEST = 1e-10
 """Rms in m below which heights are hardly those of a surface: an atom is as large."""
 
@@ -106,7 +109,8 @@ def surface_doubts(config, contact):
     """Lines about heights that may be errors: they are what a file says, and hardly what was measured."""
     for key, part in parts_of(config):
         if isinstance(part, Measured):
-            yield from (f"{key}: {words}" for words in _doubts(part.heights))
+            doubts = *_doubts(part.heights), *_form_doubts(part.heights, contact)
+            yield from (f"{key}: {words}" for words in doubts)
     rms, than = contact.roughness, None
     if 0.0 < rms < SMOOTHEST and not config.is_in_time:
         than = f"{1e9 * rms:.2g} nm within the Hertz contact, less than any surface has"
@@ -121,7 +125,7 @@ def _doubts(heights):
     if heights.doubt:
         yield heights.doubt
     if heights.filled:
-        yield f"{heights.filled} of {heights.points.size} points were holes and are filled smoothly"
+        yield f"{heights.filled} of {heights.own_points.size} points were holes and are filled smoothly"
     count, point = heights.repeated
     if count:
         yield (
@@ -134,6 +138,16 @@ def _doubts(heights):
         yield (
             f"{stand} out of all neighbours, row {point.row}, column {point.column} most, by "
             f"{1e6 * point.height:.4g} um: such a point may bear all of the load"
+        )
+
+
+def _form_doubts(heights, contact):
+    """Doubts about the form of one file in a contact, whose own radii the bodies have already."""
+    radius = heights.form_radius
+    if radius < HARDLY_CURVED * max(contact.radius_x, 0.0 if contact.is_line else contact.radius_y):
+        yield (
+            f"it is curved by a radius of {1e3 * radius:.3g} mm, which the bodies' radii may tell already: "
+            'remove = "curvature" takes it off'
         )
 
 

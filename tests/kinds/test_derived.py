@@ -51,6 +51,9 @@ def test_inner_and_outer_ring_of_one_bearing_have_the_same_speed():
     ball = {"body_1.diameter": "10 mm", "motion.ring_rotation": "6000 rpm"}
     inner, outer = (of(ball | {"body_2.diameter": f"{d} mm"}).motion.speed for d in (40, -60))
     assert inner == pytest.approx(outer, rel=1e-14)
+    # Whichever body is named first.
+    swapped = {"body_2.diameter": "10 mm", "body_1.diameter": "40 mm", "motion.ring_rotation": "6000 rpm"}
+    assert of(swapped).motion.speed == pytest.approx(inner, rel=1e-14)
     # No slip: the ring turns against the cage, which turns by half as much as the ball's centre is away.
     omega = 200.0 * pi
     assert inner == pytest.approx((omega - 0.5 * omega * (1.0 - 0.2)) * 20e-3, rel=1e-14)
@@ -127,7 +130,7 @@ def test_what_a_word_needs_is_named(word):
         ({"lubricant.density": 850}, ["density = 850: means nothing without lubricant.kinematic_visc"]),
         ({"body_1.rotation": "100 Hz"}, ["turns or radians", "6000 rpm"]),
         ({"body_1.rotation": "600 1/min"}, ["turns or radians"]),
-        ({"motion.ring_rotation": "60 rpm"}, ["ring_rotation: needs diameter or radius_x of body_1"]),
+        ({"motion.ring_rotation": "60 rpm"}, ["ring_rotation: needs diameter or radius_x of a ball"]),
         ({"motion.speed": "6000 rpm"}, ["wrong unit", "motion.ring_rotation take rpm"]),
         ({"lubricant.viscosity": "20.3 cSt"}, ["wrong unit", "lubricant.kinematic_viscosity takes cSt"]),
         ({"lubricant.oil": "olive"}, ["must be one of N100, M100, PAO100"]),

@@ -49,6 +49,9 @@ def test_points_that_are_hardly_heights_are_named(tmp_path):
     missing[3:6, 7:9] = -32768.0
     (said,) = doubts(tmp_path, missing)
     assert said.startswith("6 points, the first in row 4, column 8, have the same height of -32.77 um")
+    # Of a form that is taken off equal heights are equal no more.
+    (said,) = doubts(tmp_path, np.where(missing < -1e3, 300.0, missing), remove="curvature")
+    assert said.startswith("6 points, the first in row 4, column 8, have the same height of 0.3 um")
     holed = good.copy()
     holed[3:6, 7:9] = np.nan
     said = doubts(tmp_path, holed, holes="interpolate")
@@ -57,3 +60,20 @@ def test_points_that_are_hardly_heights_are_named(tmp_path):
     assert said.startswith("Sq is 0.026 nm within the Hertz contact, less than any surface has")
     (said,) = doubts(tmp_path, good, height_unit="um")
     assert said.startswith("Sq is 26.4 um within the Hertz contact, more than a surface that rolls")
+
+
+def test_the_form_of_a_body_in_its_heights_is_named(tmp_path):
+    """The bodies' radii tell it already: it counted twice."""
+    noise = np.random.default_rng(5).normal(0.0, 30.0, (65, 65))
+    x = 14e-6 * (np.arange(65) - 32)
+    ball = noise + 1e9 * (x[None, :] ** 2 + x[:, None] ** 2) / (2.0 * 12.7e-3)
+    (said,) = doubts(tmp_path, ball)
+    assert said.startswith("it is curved by a radius of 12.7 mm, which the bodies' radii may tell")
+    assert doubts(tmp_path, ball, remove="curvature") == []
+
+
+def test_holes_of_a_profile_are_counted_once(tmp_path):
+    profile = np.random.default_rng(5).normal(0.0, 30.0, 65)
+    profile[[3, 9]] = np.nan
+    said = doubts(tmp_path, profile, holes="interpolate")
+    assert said == ["2 of 65 points were holes and are filled smoothly"]

@@ -15,6 +15,10 @@ BEYOND = 4.0
 LARGE = 99.0
 """Per cent of the steps that are smaller than a large one."""
 
+FAR, SEVERAL = 0.25, 3
+"""Distance of a height from all others, over the spread of these, from which on it is hardly one that so
+many points share."""
+
 STEEP = 0.02
 """A lower one, over the distance of its neighbours, is no matter: a wave of such bears 2 GPa on steel."""
 
@@ -74,13 +78,15 @@ def outstanding(z, step):
 
 def repeated(z):
     """Number of points that share the least or the largest height, and the first `Point`, where this height
-    is farther from all others than these from each other; 0, None where neither is.
+    is far from all others; 0, None where neither is. A hole is no height.
     """
-    for off in (z - z.min(), z.max() - z):
+    known = z[np.isfinite(z)]
+    for off in (z - known.min(), known.max() - z):
         others = off[off > 0.0]
-        count = z.size - others.size
-        if count > 1 and others.size and 0.0 < np.ptp(others) < others.min():
-            return count, _point(z, off.argmin())
+        count, spread = known.size - others.size, np.ptp(others) if others.size else 0.0
+        far = spread if count < SEVERAL else FAR * spread
+        if count > 1 and 0.0 < far < others.min():
+            return count, _point(z, np.nanargmin(off))
     return 0, None
 
 

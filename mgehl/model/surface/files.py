@@ -15,6 +15,7 @@ from numpy.lib import format as npy
 
 from mgehl.errors import one_line
 from mgehl.model.surface.map import UNITS, Map, SurfaceFileError, step_along
+from mgehl.model.surface.sdf import is_sdf, read_sdf
 from mgehl.model.surface.text import read_text
 from mgehl.model.text_table import FileError, NoTableError
 
@@ -36,6 +37,8 @@ def read_map(path):
         if _is_numpy(path):
             return _read_numpy(path).checked()
         try:
+            if is_sdf(path):
+                return read_sdf(path).checked()
             return read_text(path).checked()
         except FileError as error:
             return _read_instrument(path, error).checked()
@@ -61,7 +64,8 @@ def _read_numpy(path):
         if not zipfile.is_zipfile(path):
             with open(path, "rb") as file:
                 _check_bytes(path, "its array", file)
-            return Map(path, _numbers(path, np.load(path, allow_pickle=False)))
+            heights = _numbers(path, np.load(path, allow_pickle=False))
+            return Map.of_profile(path, heights) if heights.ndim == 1 else Map(path, heights)
         with np.load(path, allow_pickle=False) as archive:
             found = _Arrays(path, archive)
             heights = _numbers(path, _heights(path, found))

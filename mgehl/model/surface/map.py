@@ -81,12 +81,15 @@ class Map:
             own = getattr(self, name)
             if given and own and not isclose(given, own):
                 raise self.error(f'{name} = "{_called(given)}", but the file itself says "{_called(own)}"')
-        for name, given, own in (("spacing", dx, self.dx), ("spacing_y", dy or dx, self.dy)):
+        for name, given, own in (("spacing", dx, self.dx), ("spacing_y", dy, self.dy)):
             own = own and self.position_unit and own * self.position_unit
             if given and own and not isclose(given, own, rel_tol=UNEVEN):
                 raise self.error(f"{name} = {given:.6g} m, but the file itself says {own:.6g}")
-        place = {"dx": dx, "dy": dy or dx, "position_unit": 1.0} if dx else {"position_unit": position_unit}
-        return self.told(height_unit=height_unit, **place)
+        if not dx:
+            return self.told(height_unit=height_unit, position_unit=position_unit)
+        # Positions without a unit tell how wide a cell is for its length.
+        wide = self.dy / self.dx if self.dx and self.dy else 1.0
+        return self.told(height_unit=height_unit, dx=dx, dy=dy or wide * dx, position_unit=1.0)
 
 
 def _called(unit):

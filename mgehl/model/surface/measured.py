@@ -21,6 +21,9 @@ CONTINUATIONS = {"none": "nearest", "mirror": "mirror", "periodic": "grid-wrap"}
 REMOVED = {"nothing": (), "mean": (0,), "tilt": (0, 1), "curvature": (0, 1, 2)}
 """What may be taken off, and the degrees of the polynomials that it is."""
 
+STANDS_OUT = 4.0
+"""Height of a parabola over the rms of the rest from which on it is a form."""
+
 REFUSE, INTERPOLATE = "refuse", "interpolate"
 """What is done about holes."""
 
@@ -54,10 +57,27 @@ class Heights:
     """The same before any filter."""
     filled: int = 0
     """Holes that were filled."""
+    repeated: tuple = (0, None)
+    """As `doubts.repeated`, of the heights that the file has."""
     doubt: str = ""
     """As the `Map`'s."""
     is_profile: bool = False
     """As the `Map`'s."""
+
+    @property
+    def own_points(self):
+        """The points of the file: of a profile one row."""
+        return self.points[:1] if self.is_profile else self.points
+
+    @cached_property
+    def form_radius(self):
+        """Smallest radius of the parabola that is nearest to the points, in m; inf where what is left of
+        them is of its size: any rough surface has some."""
+        form = _form(self.points, (2,))
+        bends = [np.ptp(form, axis=axis).max() for axis in (1, 0)]
+        if not max(bends) > STANDS_OUT * np.std(self.points - _form(self.points, REMOVED["curvature"])):
+            return np.inf
+        return min(size**2 / (8.0 * max(bend, 1e-300)) for size, bend in zip(self.size, bends, strict=True))
 
     @cached_property
     def farthest(self):
@@ -67,12 +87,7 @@ class Heights:
     @cached_property
     def outstanding(self):
         """As `doubts.outstanding`."""
-        return doubts.outstanding(self.points, min(self.dx, self.dy))
-
-    @cached_property
-    def repeated(self):
-        """As `doubts.repeated`."""
-        return doubts.repeated(self.points)
+        return doubts.outstanding(self.own_points, min(self.dx, self.dy))
 
     @property
     def size(self):
@@ -178,6 +193,7 @@ def _prepared(path, preparation, _changed):
         raise found.error("its size is zero")
     holes = _checked_holes(found, told.holes)
     z = found.height_unit * found.heights
+    repeated = doubts.repeated(z[:1] if found.is_profile else z)
     if holes:
         # What is filled has the form of what was measured around it: Laplace's equation knows none.
         form = _form(z, REMOVED["curvature"])
@@ -188,12 +204,12 @@ def _prepared(path, preparation, _changed):
         z = z - _low_pass(z, told.longest_wavelength, dx, dy, mode)
     if told.shortest_wavelength is not None:
         z = _low_pass(z, told.shortest_wavelength, dx, dy, mode)
-    return Heights(z, dx, dy, points, holes, found.doubt, found.is_profile)
+    return Heights(z, dx, dy, points, holes, repeated, found.doubt, found.is_profile)
 
 
 def _checked_holes(found, holes):
     """Number of a `Map`'s holes. Raises SurfaceFileError where they are too many, or not to be filled."""
-    hole = ~np.isfinite(found.heights)
+    hole = ~np.isfinite(found.heights[:1] if found.is_profile else found.heights)
     count, size = int(hole.sum()), hole.size
     if not count:
         return 0

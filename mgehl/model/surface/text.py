@@ -16,9 +16,13 @@ SAME = 1e-4
 APART = 4.0
 """Times the difference of two rows of heights by which a row of positions differs from the next."""
 
-POSITIONS = (
-    "the first row and column are evenly spaced, as positions are, but are taken for heights: are they?"
-)
+EVEN = "the first {} {} evenly spaced, as positions are, but {} taken for heights: {}?"
+IS, ARE = ("is", "is", "is it"), ("are", "are", "are they")
+COUNTS = "the first {} counts from 0 on: it is taken for numbers of {}s, not for heights"
+"""Doubts about the first row or column of a matrix."""
+
+MANY = 8
+"""Evenly spaced heights in a row from which on they are hardly so by chance."""
 
 _BEGIN = r"(?:^|[^\w ]) *(?:(?:scan|image|map) +)?"
 """What stands before a size: a "max height" is none."""
@@ -92,16 +96,50 @@ def _told(headings):
 
 def _from_matrix(path, table):
     """The `Map` of a matrix: a first row and column that are certainly positions are no heights."""
+    if 1 in table.values.shape:
+        return Map.of_profile(path, table.values.ravel())
     rows = table.values if table.top is None else np.vstack([table.top, table.values])
-    plain = Map(path, table.values)
     x, y, z = rows[0, 1:], rows[1:, 0], rows[1:, 1:]
     if min(z.shape) < FEWEST or not (rows[0, 0] == 0.0 or np.isnan(rows[0, 0])):
-        return plain
-    steps = _step(path, x), _step(path, y)
-    if all(steps) and (table.top is not None or _is_apart(rows) and _is_apart(rows.T)):
+        return _without_numbers(path, table.values)
+    if np.isnan(rows[0, 0]) and all(np.array_equal(each, np.arange(each.size)) for each in (x, y)):
+        return Map(path, z)  # row and column of numbers, as pandas writes them
+    if _step(path, y[::-1]):
+        y, z = y[::-1], z[::-1]
+    steps, are_apart = (_step(path, x), _step(path, y)), _is_apart(rows) and _is_apart(rows.T)
+    if all(steps) and (table.top is not None or are_apart):
         return Map(path, z, *steps)
-    is_even = all(_step(path, values) or _step(path, values[::-1]) for values in (x, y))
-    return plain.told(doubt=POSITIONS) if is_even else plain
+    if all(_is_even(path, values) for values in (x, y)):
+        return Map(path, table.values, doubt=EVEN.format("row and column", *ARE))
+    return _without_numbers(path, table.values)
+
+
+def _without_numbers(path, z):
+    """The `Map` of a matrix without a first row or column that counts; in doubt where one is even."""
+    if min(z.shape) <= FEWEST:
+        return Map(path, z)
+    counts = [_counts(path, lines) for lines in (z, z.T)]
+    z = z[int(counts[0]) :, int(counts[1]) :]
+    of_both = ("row", "column"), ("column", "row")
+    told = [COUNTS.format(*names) for names, found in zip(of_both, counts, strict=True) if found]
+    even = [name for name, lines in (("row", z), ("column", z.T)) if _stands_apart(path, lines)]
+    told += [EVEN.format(" and ".join(even), *(IS if len(even) == 1 else ARE))] if even else []
+    return Map(path, z, doubt="; ".join(told))
+
+
+def _counts(path, lines):
+    """Whether the first of some lines has the numbers 0, 1, 2 and so on, and the next one has not."""
+    return bool(np.array_equal(lines[0], np.arange(lines.shape[1]))) and not _is_even(path, lines[1])
+
+
+def _stands_apart(path, lines):
+    """Whether the first of some lines is evenly spaced, but for a corner, and the next one is not."""
+    return lines.shape[1] > MANY and _is_even(path, lines[0, 1:]) and not _is_even(path, lines[1, 1:])
+
+
+def _is_even(path, values):
+    """Whether values rise or fall evenly."""
+    return bool(_step(path, values) or _step(path, values[::-1]))
 
 
 def _step(path, values):
@@ -120,7 +158,9 @@ def _is_apart(rows):
 
 def _from_points(path, table):
     """The `Map` of points (n, 3) of a rectangle, in any order; those that are missing are holes."""
-    table, lines, units = table.values, table.lines, _units(table.heading)
+    order, lines = _order(table.heading), table.lines
+    units = _units(table.heading and [table.heading[k] for k in order])
+    table = table.values[:, order]
     wrong = ~np.isfinite(table[:, :2])
     if wrong.any():
         row, column = np.argwhere(wrong)[0]
@@ -143,6 +183,15 @@ def _from_points(path, table):
     unit, unit_y, height_unit = units
     dy *= unit_y / unit if unit and unit_y else 1.0
     return Map(path, heights, dx, dy, height_unit, unit)
+
+
+def _order(heading):
+    """Columns of x, y and z by the names over them; as they stand where these are no such names."""
+    names = [re.match(r"\W*([xyz])\b", cell, re.I) for cell in heading or ()]
+    names = [name and name[1].lower() for name in names]
+    return (
+        [names.index(axis) for axis in "xyz"] if sorted(map(str, names)) == ["x", "y", "z"] else [0, 1, 2]
+    )
 
 
 def _from_profile(path, table):

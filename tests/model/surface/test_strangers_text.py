@@ -1,4 +1,5 @@
 import numpy as np
+import pandas
 import pytest
 from told import refusal
 
@@ -24,7 +25,9 @@ TEXTS = {
     "separators at the ends": matrix(",").replace("\n", ",\n"),
     "indented by tabs": "\t" + matrix("\t").strip().replace("\n", "\n\t"),
     "a heading of words and numbers": "Operator: N. N.\nDate=2024-02-01 10:11\nz\n" + matrix(";", ","),
-    "a heading of an instrument": "aISO-1.0\nNumPoints = 4\n*\n" + matrix(" ") + "*\n< PartName > x\n",
+    "a heading of an instrument": "Probe 3\nNumPoints = 4\n*\n"
+    + matrix(" ")
+    + "*\n< PartName > x\n",
 }
 
 
@@ -167,7 +170,7 @@ def test_a_first_row_and_column_of_positions_are_no_heights(tmp_path, corner):
 
 DOUBTFUL = {
     "heights go on as they begin": with_positions(0, RIGHT[1:], DOWN[1:], RAMP[1:, 1:]),
-    "they fall": with_positions("", 100.0 * RIGHT, 100.0 * DOWN[::-1], NOISE),
+    "they fall": with_positions("", 100.0 * RIGHT[::-1], 100.0 * DOWN, NOISE),
 }
 
 
@@ -183,5 +186,55 @@ def test_where_that_is_not_certain_they_stay_heights_and_it_is_said(tmp_path, te
 def test_rough_heights_below_a_zero_or_a_heading_are_heights(tmp_path, corner):
     (tmp_path / "z.csv").write_text(with_positions(corner, RIGHT, NOISE[:, 0], NOISE))
     found = read_map(tmp_path / "z.csv")
-    assert found.heights.shape == (7 if corner == "0" else 6, 10)
-    assert (found.dx, found.doubt) == (None, "")
+    assert found.heights.shape == (7 if corner == "0" else 6, 10) and found.dx is None
+    assert found.doubt.startswith("the first row is evenly spaced") == (corner == "0")
+
+
+@pytest.mark.parametrize("rows, columns", [(True, False), (False, True), (True, True)])
+def test_numbers_of_rows_and_columns_are_no_heights(tmp_path, rows, columns):
+    """As pandas writes them: the rms of heights of 80 nm was 700."""
+    frame = pandas.DataFrame(NOISE)
+    frame.to_csv(tmp_path / "z.csv", index=rows, header=columns)
+    found = read_map(tmp_path / "z.csv")
+    np.testing.assert_array_equal(found.heights, NOISE)
+    assert "counts from 0 on" in found.doubt or (rows and columns)
+
+
+def test_columns_of_points_are_what_their_names_say(tmp_path):
+    y, x = np.meshgrid(3.0 * np.arange(6), 2.0 * np.arange(9), indexing="ij")
+    table = np.column_stack([y.ravel(), x.ravel(), NOISE.ravel()])
+    np.savetxt(tmp_path / "z.csv", table, delimiter=",", header="y [um],x [um],z [nm]", comments="")
+    found = read_map(tmp_path / "z.csv")
+    np.testing.assert_array_equal(found.heights, NOISE)
+    assert (found.dx, found.dy, found.height_unit, found.position_unit) == (2.0, 3.0, 1e-9, 1e-6)
+
+
+def test_decimal_commas_between_commas_and_blanks(tmp_path):
+    text = "\n".join(", ".join(f"{z:.3f}".replace(".", ",") for z in row) for row in NOISE)
+    (tmp_path / "z.csv").write_text(text)
+    np.testing.assert_array_equal(read_map(tmp_path / "z.csv").heights, NOISE)
+
+
+@pytest.mark.parametrize("shape", [(1, 54), (54, 1)])
+def test_one_row_or_column_is_a_profile(tmp_path, shape):
+    np.savetxt(tmp_path / "z.txt", NOISE.reshape(shape))
+    np.save(tmp_path / "z.npy", NOISE.ravel())
+    for name in ("z.txt", "z.npy"):
+        found = read_map(tmp_path / name)
+        assert found.is_profile and found.dx is None
+        np.testing.assert_array_equal(found.heights[0], NOISE.ravel())
+
+
+def test_a_spacing_keeps_the_shape_of_positions_without_a_unit(tmp_path):
+    y, x = np.meshgrid(3.0 * np.arange(6), 2.0 * np.arange(9), indexing="ij")
+    np.savetxt(tmp_path / "z.txt", np.column_stack([x.ravel(), y.ravel(), NOISE.ravel()]))
+    told = read_map(tmp_path / "z.txt").with_units(1e-9, None, 4e-6, None)
+    assert (told.dx, told.dy) == pytest.approx((4e-6, 6e-6))
+
+
+def test_rows_whose_positions_fall_are_turned(tmp_path):
+    """The first row of a `Map` is at its lowest y."""
+    (tmp_path / "z.csv").write_text(with_positions("", 100.0 * RIGHT, 100.0 * DOWN[::-1], NOISE))
+    found = read_map(tmp_path / "z.csv")
+    np.testing.assert_array_equal(found.heights, NOISE[::-1])
+    assert (found.dx, found.dy, found.doubt) == (200.0, 300.0, "")

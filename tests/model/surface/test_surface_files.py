@@ -174,7 +174,8 @@ ARRAYS = {
     "infinite": (HEIGHTS / (Y[:, None] != 0.0), "25 of 525 points are holes, the first in row 11"),
     "text": (np.array([["a", "b"], ["c", "d"]]), "holds text, not numbers"),
     "complex": (1j * HEIGHTS, "holds values of type complex128, not numbers"),
-    "one line": (HEIGHTS[0], "its heights have the shape (25,); must be a matrix"),
+    "three axes": (HEIGHTS[None], "; must be a matrix, rows along x"),
+    "one number": (HEIGHTS[0, 0], "; must be a matrix, rows along x"),
     "three rows": (HEIGHTS[:3], "has 3 rows and 25 columns; must be at least 4 of each"),
     "nothing": (np.zeros((0, 0)), "is empty"),
 }  # fmt: skip
