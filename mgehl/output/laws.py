@@ -37,6 +37,15 @@ def laws_beside(directory):
     return {f"{FOLDER}/{file.name}": file.read_bytes() for file in files}
 
 
+def changed_laws(directory, config):
+    """Files of own functions and of heights that are not what the run in a directory has kept of them, in
+    order. Raises OSError."""
+    kept = laws_beside(directory)
+    return sorted(
+        file for file, name in law_files(config).items() if name in kept and content_of(file) != kept[name]
+    )
+
+
 def portable(config):
     """The tables of a `Config` as they stand in a run directory: own functions in laws/."""
     return _moved(config.as_toml_tables(), law_files(config))

@@ -24,7 +24,7 @@ from mgehl.kinds.choice import value_of
 from mgehl.output.checkpoint import is_begun
 from mgehl.output.directory import make_directory
 from mgehl.output.files import CONFIGURATION, FIELDS, REPORT, on_first_rank
-from mgehl.output.laws import portable
+from mgehl.output.laws import changed_laws, law_files, portable
 from mgehl.output.lock import locked
 from mgehl.output.pictures.titles import differing
 from mgehl.output.report.page import render
@@ -163,7 +163,9 @@ class Study:
             on_first_rank(self.comm, make_directory, path, True)
             with locked(self.comm, path):
                 run(case, path, self.comm, self.watch, start if case.contact.is_loaded else None)
-        return on_every_rank(self.comm, on_first_rank(self.comm, read_run, path))
+        found = on_every_rank(self.comm, on_first_rank(self.comm, read_run, path))
+        # Laws of a run that is read are anybody's, and not run; these are the case's own.
+        return replace(found, contact=case.contact) if law_files(case.config) else found
 
     def tell(self, title, result, must_converge=True):
         """Say what came of a finished case, and how long the others will take."""
@@ -223,7 +225,9 @@ def _has_finished(path, config):
         old, new = (said(value_of(tables, keys[0])) or "unset" for tables in (there, here))
         other = f"is of another configuration, {keys[0]} = {old} and not {new}"
         raise OutputError(f"--resume: {path} {other}; choose another with --out")
-    return True
+    if changed := changed_laws(path, config):
+        complain(f"{path}: is solved anew, for {', '.join(changed)} changed since it was")
+    return not changed
 
 
 def verdict(result, otherwise="NOT CONVERGED"):

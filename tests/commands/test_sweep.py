@@ -97,6 +97,23 @@ def test_what_is_there_is_not_solved_again_nor_taken_for_another(film, refused, 
         assert why in refused(*words, str(film), "--resume")
 
 
+def test_points_of_a_file_that_has_changed_are_solved_anew(tmp_path, capsys):
+    """A curve was half of the old file and half of the new one."""
+    law, directory = tmp_path / "law.py", tmp_path / "sweep"
+    words = ["sweep", *FILM, "--set", f"contact.surface={law}:waves", "--over", "motion.speed=1,2 m/s"]
+    words += ["--quiet", "--out", str(directory)]
+    files = []
+    for height in (2e-8, 1e-8):
+        law.write_text(
+            f"import numpy as np\n\n\ndef waves(x, y):\n    return {height} * np.cos(2e4 * x + 0.0 * y)\n"
+        )
+        assert main([*words, *(["--resume"] if files else [])]) == 0
+        files.append((directory / "runs" / "001" / "laws" / "law.py").read_bytes())
+    assert files[0] != files[1] == law.read_bytes()
+    assert f"001: is solved anew, for {law} changed" in capsys.readouterr().err
+    assert len(list((directory / "runs" / "001").iterdir())) == 6  # no remains
+
+
 def test_a_point_that_fails_is_said_and_passed(tmp_path, capsys, monkeypatch):
     run, starts = study.run, []
 

@@ -25,9 +25,7 @@ TEXTS = {
     "separators at the ends": matrix(",").replace("\n", ",\n"),
     "indented by tabs": "\t" + matrix("\t").strip().replace("\n", "\n\t"),
     "a heading of words and numbers": "Operator: N. N.\nDate=2024-02-01 10:11\nz\n" + matrix(";", ","),
-    "a heading of an instrument": "Probe 3\nNumPoints = 4\n*\n"
-    + matrix(" ")
-    + "*\n< PartName > x\n",
+    "a heading of an instrument": "Probe 3\nNumPoints = 4\n*\n" + matrix(" ") + "*\n< PartName > x\n",
 }
 
 
