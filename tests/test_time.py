@@ -107,7 +107,9 @@ def test_what_is_exported_is_of_the_end(course):
     assert slower.summary.moes_film.central == pytest.approx(H)
     friction = np.average(column(slower, "friction"), weights=column(slower, "step_s"))
     assert slower.summary.time.whole["friction"] == pytest.approx(friction)
-    assert "over the whole run: mean gap" in str(slower.summary)
+    assert "means over the whole run: mean gap" in str(slower.summary)
+    most, least = column(slower, "max_pressure_GPa").max(), column(slower, "minimum_film_nm").min()
+    assert (slower.summary.time.most_pressure_GPa, slower.summary.time.least_film_nm) == (most, least)
     assert not solved(time__end=0.1 * UNIT).summary.time.whole
 
 

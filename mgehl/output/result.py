@@ -119,7 +119,9 @@ class TimeResult:
     whole: dict[str, float] = field(default_factory=dict)
     """Means over the whole run where speed or load change, as over the cycle of a cam."""
     largest_shear_MPa: float = None
-    """Of all steps; None in older results."""
+    """Of all steps; None in older results, as the two that follow."""
+    most_pressure_GPa: float = None
+    least_film_nm: float = None
     spikes: int = 0
     """Steps whose largest pressure is a spike that three nodes do not hold."""
     error: TimeError | None = None

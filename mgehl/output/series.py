@@ -225,5 +225,7 @@ def time_result(rows, scene, work, largest_node):
         means=means(rows, gone),
         whole=over_all(rows, scene),
         largest_shear_MPa=max(row["largest_shear_MPa"] for row in rows),
+        most_pressure_GPa=max(row["max_pressure_GPa"] for row in rows),
+        least_film_nm=min(row["minimum_film_nm"] for row in rows),
         spikes=sum(row["pressure_crest"] > NARROW for row in rows),
     )

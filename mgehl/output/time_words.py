@@ -18,11 +18,15 @@ def time_lines(time):
     )
     yield f"oil: storage and flow close to {time.largest_closure:.1e} of what is stored in every step"
     if time.means:
-        yield f"over the last passage: {', '.join(_means(*_of_passage(time)))}"
+        yield f"means over the last passage: {', '.join(_means(*_of_passage(time)))}"
     else:
         yield "no means: the run ends before its first passage"
     if time.whole:
-        yield f"over the whole run: {', '.join(_means(time.whole, time.error.whole if time.error else {}))}"
+        bands = time.error.whole if time.error else {}
+        yield f"means over the whole run: {', '.join(_means(time.whole, bands))}"
+    if time.most_pressure_GPa is not None:
+        most, least = pressure_words(time.most_pressure_GPa), time.least_film_nm
+        yield f"of all steps: largest pressure {most}, smallest film {least:.4g} nm"
     if time.error and (time.means or time.whole):
         has_bands = time.error.means or time.error.whole
         yield f"{'bands' if has_bands else 'no band'} of means: {time.error.how}"
@@ -50,7 +54,7 @@ def _means(values, bands):
     """Means in words, with the bands that there are."""
     pressure, friction = "max_pressure_GPa", "friction"
     yield f"mean gap {_mean(values, bands, 'mean_gap_nm')} nm"
-    yield f"largest pressure {pressure_words(values[pressure], _told(values, bands, pressure))}"
+    yield f"the largest pressure {pressure_words(values[pressure], _told(values, bands, pressure))}"
     yield f"load on solids {_mean(values, bands, 'load_on_solids', 100.0)} %"
     if values[friction]:
         yield f"friction {_mean(values, bands, friction)} of the load"

@@ -8,7 +8,7 @@ report.html has all. A point that has no answer is said and passed.
 
 from dataclasses import dataclass, field
 from functools import partial
-from itertools import pairwise
+from itertools import chain, pairwise
 from math import log, nan
 from pathlib import Path
 
@@ -17,13 +17,15 @@ import numpy as np
 from mgehl.config import KEYS
 from mgehl.errors import OutputError
 from mgehl.output.files import on_first_rank
+from mgehl.output.friction_result import strength_lines
 from mgehl.output.laws import portable
 from mgehl.output.netcdf import netcdf_file, put
-from mgehl.output.quantities import QUANTITIES, Told, read_told
+from mgehl.output.quantities import QUANTITIES, Told, read_told, told_at
 from mgehl.output.study_directory import RUNS, StudyRecord
 from mgehl.output.surroundings import versions
 from mgehl.output.table import collect, said
 from mgehl.output.whole_file import whole_file, writing
+from mgehl.saying import mention
 from mgehl.solver.restart import Forecast
 from mgehl.studies.points import WAYS
 from mgehl.studies.study import begun
@@ -69,6 +71,8 @@ def fill(study, directory, axes, points, name="sweep"):
     rows = study.comm.bcast(on_first_rank(study.comm, _rows, folder, axes, points, runs, names))
     shown = [axis.key for axis in axes] + ["converged", *_printed(points[0].config), "why not"]
     study.write_table(name, rows, shown, names=len(axes))
+    if study.first and study.speak:
+        _say_of_shear(runs)
     on_first_rank(study.comm, write_arrays, study.directory / f"{name}.nc", axes, points, runs)
     study.draw(name, curves, runs, axes[0].key, [WAYS[p.way] for p in points if points[-1].way])
     return runs
@@ -135,6 +139,14 @@ class _Walk:
         study.tell(title, solution.result)
         told = study.comm.bcast(on_first_rank(study.comm, read_told, self.folder / run))
         return solution, _Stop(point, told, run)
+
+
+def _say_of_shear(runs):
+    """Say of how many points the shear is more than oils bear, and what to think of that."""
+    shears = (told_at(told.result, "friction.largest_shear_MPa") for told in runs)
+    strong = list(chain.from_iterable(map(strength_lines, shears)))
+    if strong:
+        mention(f"in {len(strong)} of {len(runs)} points: {strong[0]}")
 
 
 def _refuse_others(folder, points):

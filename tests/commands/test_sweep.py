@@ -97,6 +97,13 @@ def test_what_is_there_is_not_solved_again_nor_taken_for_another(film, refused, 
         assert why in refused(*words, str(film), "--resume")
 
 
+def test_shear_that_no_oil_bears_is_told_of_a_sweep_too(tmp_path, capsys):
+    stiff = ["--set=motion.slide_to_roll=0.5", "--set=lubricant.pressure_viscosity=3e-8"]
+    words = ["sweep", *FILM, *stiff, "--over=motion.speed=1,2 m/s", "--out", str(tmp_path / "s")]
+    assert main(words) == 0
+    assert "in 2 of 2 points: no oil bears more than some 300 MPa" in capsys.readouterr().out
+
+
 def test_points_of_a_file_that_has_changed_are_solved_anew(tmp_path, capsys):
     """A curve was half of the old file and half of the new one."""
     law, directory = tmp_path / "law.py", tmp_path / "sweep"

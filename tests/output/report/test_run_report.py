@@ -164,7 +164,7 @@ def test_a_run_in_time_tells_its_means_and_that_other_numbers_are_those_at_its_e
     page = quick(film_run, time=time, flux_imbalance=None)
     assert page.highlights["mean gap over the last passage"] == "200.2 ± 0.5 nm"
     assert "central film at the end" in page.highlights and "central film" not in page.highlights
-    assert "Over the last passage: mean gap 200.2 ± 0.5 nm" in page.text
+    assert "Means over the last passage: mean gap 200.2 ± 0.5 nm" in page.text
     assert "imbalance of the flux" not in page.rows(CHECKS)
 
 
