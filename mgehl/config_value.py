@@ -39,6 +39,7 @@ _PRINTED = (
     (re.compile(r"\b(m?)Pas\b"), lambda m: f"{m[1]}Pa*s"),
     (re.compile(r"\bNs\b"), lambda _: "N*s"),
     (re.compile(r"(?<=\d)\s*r/min\b"), lambda _: " rpm"),
+    (re.compile(r"(?<=/)\s*(?:°C|degC)\b"), lambda _: "K"),  # a difference
     (re.compile(r"(?<=[WJ]) */ *(m|kg|m\^?3)[ *]*K\b"), lambda m: f"/{m[1].replace('m3', 'm^3')}/K"),
 )
 """How data sheets print units that pint reads in another form: mPa·s, mm²/s, mm s-1, W/(m K), mPas,
@@ -108,8 +109,10 @@ def read_value(key, rules, value):
     kind, choices = rules["kind"], rules["choices"] or ()
     if isinstance(value, str) and (sign := value.replace("\u03bc", "\u00b5")) in choices:
         value = sign
-    if kind is str and isinstance(value, str) and value in choices:
-        return value
+    if kind is str and isinstance(value, str):
+        for word in choices:
+            if word.casefold() == value.casefold():
+                return word
     if rules["own"] and (own := rules["own"](value)):
         return own
     if kind is float or kind is int:

@@ -48,6 +48,7 @@ def test_default_configuration_is_the_point_contact():
      ("contact.reduced_modulus=220 kN/mm2", 220e9),
      ("lubricant.pressure_viscosity=18.2/GPa", 18.2e-9),
      ("lubricant.pressure_viscosity=18.2 GPa⁻¹", 18.2e-9), ("lubricant.conductivity=0.14 W/(m K)", 0.14),
+     ("lubricant.conductivity=0.14 W/m/degC", 0.14),
      ("lubricant.conductivity=0.14 W/(m·K)", 0.14), ("lubricant.conductivity=0.14 W/mK", 0.14),
      ("lubricant.conductivity=0.14 W/m K", 0.14), ("contact.reduced_modulus=226e3 N/mm²", 226e9),
      ("discretization.film_threshold=0.2 angstrom", 0.02e-9), ("discretization.film_threshold=0", 0.0),
@@ -66,7 +67,8 @@ def test_units_end_as_SI_floats(setting, value):
      ("grid.x=[-4.5, 1.5]", (-4.5, 1.5)), ("grid.y=[-3, 3]", (-3.0, 3.0)), ("grid.x=auto", "auto"),
      ("discretization.couette=S2C", "S2C"), ('discretization.couette="2B"', "2B"),
      ("lubricant.viscosity_law=roelands", "roelands"), ("lubricant.density_law=constant", "constant"),
-     ("solver.error=false", False), ("solver.omega=.9", 0.9), ("contact.load=5.", 5.0)],
+     ("solver.error=false", False), ("lubricant.viscosity_law=Roelands", "roelands"),
+     ("solver.omega=.9", 0.9), ("contact.load=5.", 5.0)],
 )  # fmt: skip
 def test_settings_are_toml_or_numbers_or_else_plain_strings(setting, value):
     section, key = setting.split("=")[0].strip().split(".")

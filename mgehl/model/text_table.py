@@ -19,7 +19,8 @@ END = "*"
 """A line that ends the rows  [ISO 25178-71]."""
 
 HOLES = {"", "nan", "inf", "-inf", "bad", "nodata", "none", "null", "na", "n/a", "-", "--", "---", "***"}
-HOLES |= {"#n/a", "#na", "#nv"}
+HOLES |= {"#n/a", "#na", "#nv", "#div/0!", "?", "nan(ind)", "-nan", "-nan(ind)"}
+HOLES |= {f"{sign}1.#{name}" for sign in ("", "-") for name in ("qnan", "ind", "inf")}
 """Words that stand for a number that is not there."""
 
 SEPARATORS = ";", "\t", ",", None
