@@ -4,7 +4,7 @@ from types import SimpleNamespace
 import pytest
 from contacts import solved
 
-from mgehl.output.gap_error import SPREAD, from_grids, why_no_band
+from mgehl.output.gap_error import SMALLEST, SPREAD, from_grids, share_half_width, why_no_band
 from mgehl.solver.gaps import GridGap
 
 WAVY = {
@@ -144,3 +144,10 @@ def test_a_spike_that_three_nodes_do_not_hold_leaves_a_smooth_contact_without_th
     assert result.max_pressure_band_GPa is result.friction.coefficient_band is None
     assert result.error.central_nm and result.friction.is_the_grids
     assert "a spike that three nodes do not hold" in str(result)
+
+
+def test_what_few_nodes_carry_may_be_none_on_another_grid():
+    """Two grids agreed on 1.3 % of the load by .36, and a finer one had .2 %."""
+    assert share_half_width(0.013, 0.0125, 0.002) == 0.013
+    assert share_half_width(0.13, 0.125, 0.002) == pytest.approx(0.006)
+    assert share_half_width(0.0, 0.0, 0.0) == SMALLEST
