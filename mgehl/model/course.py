@@ -56,10 +56,17 @@ class Course:
 
     def bend(self, begin, end, until):
         """Largest part of its range `until` a time by which it leaves a straight line between two times."""
-        if not (off := self.off(begin, end, until)):
+        return self._part(self.off(begin, end, until), until)
+
+    def change(self, begin, end, until):
+        """Part of its range `until` a time by which it changes between two times."""
+        return self._part(abs(self.value(end) - self.value(begin)), until)
+
+    def _part(self, difference, until):
+        if not difference:
             return 0.0
         least, most = self.range(until)
-        return float(off / max(most - least, off, RIPPLE * max(abs(least), abs(most))))
+        return float(difference / max(most - least, difference, RIPPLE * max(abs(least), abs(most))))
 
     def off(self, begin, end, until):
         """By how much it leaves that line."""

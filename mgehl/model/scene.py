@@ -139,6 +139,10 @@ class Scene:
         """Largest part of its range by which speed, load or angle leaves a straight line meanwhile."""
         return max(each.bend(begin, end, self.end) for each in (self.speed, self.load, self.angle))
 
+    def change(self, begin, end):
+        """Largest part of its range by which speed, load or angle changes meanwhile."""
+        return max(each.change(begin, end, self.end) for each in (self.speed, self.load, self.angle))
+
     def passage(self, share=1.0, angles=None):
         """Way in m of the mean surface on which all heights that move go the length of the Hertz contact
         under `share` times the load: as it is along `angles` in degrees, an array, or the first motion.

@@ -28,6 +28,10 @@ STRAIGHT = 0.05
 """Part of its range by which speed, load or angle may leave a straight line within a step: a wave has seven
 steps."""
 
+MOST_CHANGE = 0.25
+"""Part of its range by which speed, load or angle may change in a step, however straight: where heights
+move, pressures tell no error."""
+
 SHORTEST, SHORTEST_PART = 1e-3, 1e-4
 """The shortest step by which a kink or a jump is met, the smaller of two: in cells that the fastest
 surfaces go, and as a part of the run."""
@@ -73,15 +77,21 @@ class Pace:
 
     def fitted(self, t, step):
         """As much of a step as time is left, as surfaces may go cells, and as speed, load and angle go
-        straight on: what happens within a step is not seen. It ends at a kink if there is one."""
+        straight on and change little: what happens within a step is not seen. It ends at a kink if there is
+        one."""
         left, step = self.scene.end - t, self._in_cells(t, step)
         nearest = self._end(t, left, step)
-        while (step := min(step, nearest)) > self._shortest and self.scene.bend(t, t + step) > STRAIGHT:
+        while (step := min(step, nearest)) > self._shortest and self._is_long(t, t + step):
             step = max(0.5 * step, self._shortest)
         if step >= nearest * (1.0 - JUST):
             return nearest
         # No crumb is left over.
         return 0.5 * nearest if step > 0.6 * nearest else step
+
+    def _is_long(self, begin, end):
+        """Whether speed, load or angle bend or change too much between two times."""
+        scene = self.scene
+        return scene.bend(begin, end) > STRAIGHT or scene.change(begin, end) > MOST_CHANGE
 
     def _end(self, t, left, step):
         """The kink, or the end of the run, that a step may end at: of those within it the last up to which

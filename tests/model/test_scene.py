@@ -150,7 +150,7 @@ def test_no_step_goes_over_a_pulse_of_a_table(tmp_path):
     pulse = tmp_path / "pulse.csv"
     pulse.write_text("0,20\n0.15,20\n0.1505,40\n0.151,20\n0.3,20\n")
     seen = loads_seen(pulse, 0.3, 0.05, speed=1e-4)
-    assert max(seen) == 40.0 and len(seen) < 12
+    assert max(seen) == 40.0 and len(seen) < 24
 
 
 def test_a_table_of_many_rows_takes_no_step_for_each(tmp_path):
@@ -180,6 +180,14 @@ def test_steps_of_a_wave_are_foretold(tmp_path, periods):
     found = scene({"contact.load": load, "time.end": end, "motion.speed": 0.01})
     steps = expected_steps(found, Mesh(65, 65, (-2.0, 2.0), (-2.0, 2.0)))
     assert 7 * periods < steps < 20 * periods
+
+
+def test_a_load_that_falls_evenly_is_seen_to_fall(tmp_path):
+    """Slow rough surfaces took one step for it, for their pressures tell no error."""
+    fall = tmp_path / "fall.csv"
+    fall.write_text("0,20\n0.15,20\n0.151,2\n0.3,2\n")
+    seen = loads_seen(fall, 0.3, 0.05, speed=1e-4)
+    assert sum(2.0 < load < 20.0 for load in seen) >= 4 and len(seen) < 24
 
 
 def test_a_step_is_as_short_as_its_error_asks_for():
