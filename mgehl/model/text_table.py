@@ -214,7 +214,7 @@ def _separator(line):
 def _words(line, separator):
     """What stands between separators, without quotes."""
     line = re.sub(r"no data", "nodata", line, flags=re.I)
-    if separator is None or '"' not in line:
+    if separator in (None, COMMA_AND_BLANK) or '"' not in line:
         return [word.strip() for word in line.replace('"', " ").split(separator)]
     try:
         cells = next(csv.reader([line], delimiter=separator, skipinitialspace=True))

@@ -73,9 +73,10 @@ class Heights:
     def form_radius(self):
         """Smallest radius of the parabola that is nearest to the points, in m; inf where what is left of
         them is of its size: any rough surface has some."""
-        form = _form(self.points, (2,))
-        bends = [np.ptp(form, axis=axis).max() for axis in (1, 0)]
-        if not max(bends) > STANDS_OUT * np.std(self.points - _form(self.points, REMOVED["curvature"])):
+        form = _form(self.points, REMOVED["curvature"])
+        parabola = form - _form(form, REMOVED["tilt"])
+        bends = [np.ptp(parabola, axis=axis).max() for axis in (1, 0)]
+        if not max(bends) > STANDS_OUT * np.std(self.points - form):
             return np.inf
         return min(size**2 / (8.0 * max(bend, 1e-300)) for size, bend in zip(self.size, bends, strict=True))
 

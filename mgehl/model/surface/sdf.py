@@ -22,20 +22,22 @@ def is_sdf(path):
 
 
 def read_sdf(path):
-    """The `Map` of a file: a header of NAME = VALUE, and between asterisks heights in rows of any length,
-    the first at the lowest y. Raises FileError."""
-    header, _, rest = read_content(path).partition("*")
-    told = {name.lower(): value for name, value in re.findall(r"(\w+)\s*=\s*(\S+)", header)}
+    """The `Map` of a file: a header of NAME = VALUE, and between lines of an asterisk the heights of rows,
+    the first at the lowest y, in lines of any length. Raises FileError."""
+    header, *parts = re.split(r"^\s*\*\s*$", read_content(path), maxsplit=2, flags=re.M)
+    told = dict(re.findall(r"^[ \t]*(\w+)[ \t]*=[ \t]*(\S+)", header, re.M))
+    told = {name.lower(): value.replace(",", ".") for name, value in told.items()}
     try:
         columns, rows = (int(told[name]) for name in NEEDED[:2])
-        dx, dy, unit = (float(told[name].replace(",", ".")) for name in NEEDED[2:])
-        heights = [value_of(word) for word in rest.partition("*")[0].split()]
+        dx, dy, unit = (float(told[name]) for name in NEEDED[2:])
+        heights = np.array([value_of(word) for word in parts[0].split()] if parts else [], dtype=float)
     except KeyError as missing:
         raise SurfaceFileError(path, f"its header does not tell {missing.args[0]}") from None
     except ValueError as error:
         raise FileError(path, f"is no ASCII SDF: {error}") from None
-    if len(heights) != columns * rows:
-        raise SurfaceFileError(
-            path, f"has {len(heights)} heights; its header tells {columns} x {rows}, {columns * rows}"
-        )
-    return Map(path, np.array(heights, dtype=float).reshape(rows, columns), dx, dy, unit, 1.0)
+    if min(columns, rows) < 1 or heights.size != columns * rows:
+        size = f"{columns} x {rows}"
+        raise SurfaceFileError(path, f"has {heights.size} heights; its header tells {size} of them")
+    if rows == 1:
+        return Map.of_profile(path, heights, dx, unit, 1.0)
+    return Map(path, heights.reshape(rows, columns), dx, dy, unit, 1.0)

@@ -102,12 +102,11 @@ def _from_matrix(path, table):
     x, y, z = rows[0, 1:], rows[1:, 0], rows[1:, 1:]
     if min(z.shape) < FEWEST or not (rows[0, 0] == 0.0 or np.isnan(rows[0, 0])):
         return _without_numbers(path, table.values)
-    if np.isnan(rows[0, 0]) and all(np.array_equal(each, np.arange(each.size)) for each in (x, y)):
-        return Map(path, z)  # row and column of numbers, as pandas writes them
+    numbered = np.isnan(rows[0, 0]) and all(np.array_equal(each, np.arange(each.size)) for each in (x, y))
     if _step(path, y[::-1]):
         y, z = y[::-1], z[::-1]
     steps, are_apart = (_step(path, x), _step(path, y)), _is_apart(rows) and _is_apart(rows.T)
-    if all(steps) and (table.top is not None or are_apart):
+    if all(steps) and (table.top is not None or are_apart or numbered):
         return Map(path, z, *steps)
     if all(_is_even(path, values) for values in (x, y)):
         return Map(path, table.values, doubt=EVEN.format("row and column", *ARE))
@@ -129,7 +128,8 @@ def _without_numbers(path, z):
 
 def _counts(path, lines):
     """Whether the first of some lines has the numbers 0, 1, 2 and so on, and the next one has not."""
-    return bool(np.array_equal(lines[0], np.arange(lines.shape[1]))) and not _is_even(path, lines[1])
+    many = lines.shape[1] > MANY
+    return many and np.array_equal(lines[0], np.arange(lines.shape[1])) and not _is_even(path, lines[1])
 
 
 def _stands_apart(path, lines):

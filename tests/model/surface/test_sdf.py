@@ -6,7 +6,8 @@ from mgehl.model.surface.files import read_map
 
 Z = np.random.default_rng(5).integers(-100, 100, (4, 6)).astype(float)
 HEADER = """aISO-1.0
-ManufacID = TEST
+ManufacID = T*ST
+ModDate =
 NumPoints = 6
 NumProfiles = 4
 Xscale = 5.0E-6
@@ -36,11 +37,20 @@ def test_a_bad_point_is_a_hole(tmp_path):
 @pytest.mark.parametrize(
     "content, said",
     [
-        (HEADER + "1 2 3\n*\n", "has 3 heights; its header tells 6 x 4, 24"),
+        (HEADER + "1 2 3\n*\n", "has 3 heights; its header tells 6 x 4 of them"),
         (HEADER.replace("Zscale", "Scale") + "1 " * 24, "its header does not tell zscale"),
         (HEADER + "x " * 24, "is no ASCII SDF"),
+        (HEADER.replace("= 6\n", "= -6\n") + "1 " * 24, "its header tells -6 x 4"),
     ],
 )
 def test_what_is_wrong_is_said(tmp_path, content, said):
     (tmp_path / "z.sdf").write_text(content)
     assert said in refusal(read_map, tmp_path / "z.sdf")
+
+
+def test_one_row_is_a_profile(tmp_path):
+    (tmp_path / "z.sdf").write_text(
+        HEADER.replace("NumProfiles = 4", "NumProfiles = 1") + "1 2 3 4 5 6\n*\n"
+    )
+    found = read_map(tmp_path / "z.sdf")
+    assert found.is_profile and found.heights[0].tolist() == [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]

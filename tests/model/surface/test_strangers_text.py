@@ -191,11 +191,17 @@ def test_rough_heights_below_a_zero_or_a_heading_are_heights(tmp_path, corner):
 @pytest.mark.parametrize("rows, columns", [(True, False), (False, True), (True, True)])
 def test_numbers_of_rows_and_columns_are_no_heights(tmp_path, rows, columns):
     """As pandas writes them: the rms of heights of 80 nm was 700."""
-    frame = pandas.DataFrame(NOISE)
-    frame.to_csv(tmp_path / "z.csv", index=rows, header=columns)
+    heights = np.vstack([NOISE, NOISE[::-1]])
+    pandas.DataFrame(heights).to_csv(tmp_path / "z.csv", index=rows, header=columns)
     found = read_map(tmp_path / "z.csv")
-    np.testing.assert_array_equal(found.heights, NOISE)
-    assert "counts from 0 on" in found.doubt or (rows and columns)
+    np.testing.assert_array_equal(found.heights, heights)
+    assert "counts from 0 on" in found.doubt or (rows and columns and found.dx == found.dy == 1.0)
+
+
+def test_few_heights_that_count_are_heights(tmp_path):
+    few = np.vstack([np.arange(5.0), NOISE[:4, :5]])
+    np.savetxt(tmp_path / "z.txt", few)
+    np.testing.assert_array_equal(read_map(tmp_path / "z.txt").heights, few)
 
 
 def test_columns_of_points_are_what_their_names_say(tmp_path):
@@ -209,7 +215,7 @@ def test_columns_of_points_are_what_their_names_say(tmp_path):
 
 def test_decimal_commas_between_commas_and_blanks(tmp_path):
     text = "\n".join(", ".join(f"{z:.3f}".replace(".", ",") for z in row) for row in NOISE)
-    (tmp_path / "z.csv").write_text(text)
+    (tmp_path / "z.csv").write_text(f'"of a lens", "a"\n{text}')
     np.testing.assert_array_equal(read_map(tmp_path / "z.csv").heights, NOISE)
 
 
