@@ -9,7 +9,7 @@ import numpy as np
 from mgehl.config_value import AUTO
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import UserError
-from mgehl.grid.onto import onto
+from mgehl.grid.onto import onto, smoothly_onto
 from mgehl.model.own_function import file_and_function
 from mgehl.solver.beginning import OF_A_START, begin, first_found
 from mgehl.solver.continuation import Continuation
@@ -44,9 +44,6 @@ Convolutions of rough.toml on 129 nodes at 0.6 and 20 mm/s:
 Wherever the pressure is laid, in m or in units of a, with Hertz's change or without, linear or cubic, what
 differs by .27 takes more than from nothing.
 """
-
-SMOOTH = "cubic"
-"""How gaps lie on another grid: between nodes of a parabola a straight line is a film too thick."""
 
 LEAST_LEFT = 0.2
 """Part of a pressure that a forecast leaves at the least."""
@@ -258,7 +255,8 @@ def begun_in_time(problem, start, frame):
         wider = stood.x_scale / contact.x_scale, stood.y_scale / contact.y_scale
         old = _stretched(start.mesh.in_frame(frame), *wider)
         scale = start.contact.film_scale / contact.film_scale
-        H = scale * onto(mesh, old, frame.array(start.fields.H), np.nan, SMOOTH)
+        # Between the nodes of a parabola a straight line lies a film too high.
+        H = scale * smoothly_onto(mesh, old, frame.array(start.fields.H))
     H = grid.scatter(H)
     state.H = np.where(np.isnan(H), state.H, np.maximum(H, problem.scheme.contact_law.contact_gap))
     return state
