@@ -210,13 +210,14 @@ def _arm_towards(angle, body, radii):
 def _bearing(bodies, rotation):
     """Rolling between two rings: u = omega d_m (1 - (d/d_m)^2)/4 at either, d_m the pitch diameter.
     motion.slide_to_roll, where it is given, is slip at this mean speed."""
-    radii = [_round(body) for body in bodies]
-    if None in radii or inf in map(abs, radii) or (element := min(radii, key=abs)) <= 0.0:
+    element, race = (_round(body) for body in bodies)
+    if bodies[0].conformity is not None or (element or 0.0) < 0.0:  # it is the ring
+        element, race = race, element
+    if element is None or race is None or element <= 0.0 or abs(race) == inf:
         raise ConfigError(
             "motion.ring_rotation: needs diameter or radius_x of a ball or roller, and of the raceway "
             "(negative: that of the outer ring)"
         )
-    race = max(radii, key=abs)
     pitch = 2.0 * abs(race + element)
     speed = 0.25 * rotation * pitch * (1.0 - (2.0 * element / pitch) ** 2)
     words = f"rolling on a pitch diameter of {1e3 * pitch:.6g} mm: omega d_m (1 - (d/d_m)^2)/4"

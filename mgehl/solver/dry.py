@@ -121,7 +121,8 @@ def on_coarser(hierarchy, problem, P, solve):
         return None
     grid, there = hierarchy.grids[level], hierarchy.transfers[level].inject(P)
     coarser = ContactProblem(grid, hierarchy.deflections[level], problem.contact, problem.scheme)
-    outcome = solve(coarser, there)
+    presses = grid.sum(there.sum()) > 0.0  # peaks may stand between its nodes
+    outcome = solve(coarser, there if presses else problem.contact.guessed_pressure(grid.X, grid.Y))
     found = outcome.state.P
     apart = grid.sum(np.vdot(found, np.abs(found - there))) / grid.sum(found.sum())
     return OnCoarser(grid.mesh.nx, outcome.converged, grid.max(found), float(apart), outcome.state.H0)

@@ -2,6 +2,7 @@
 
 from bisect import bisect_right
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from math import ceil, inf, sqrt
 
@@ -96,15 +97,17 @@ class Pace:
     def _end(self, t, left, step):
         """The kink, or the end of the run, that a step may end at: of those within it the last up to which
         all goes straight on, else the next one."""
-        end = self.scene.end
-        kinks = sorted(kink - t for kink in self.scene.kinks())
+        end, kinks = self.scene.end, self._kinks - t
         # The end of a table may be that of the run but for rounding.
-        kinks = [each for each in kinks if max(self._shortest, JUST * end) < each < left - ROUNDED * end]
-        within = [each for each in [*kinks, left] if each <= step]
-        if not within:
-            return min([left, *kinks])
-        straight = bisect_right(within, STRAIGHT, key=lambda each: self.scene.bend(t, t + each))
-        return within[max(straight - 1, 0)]
+        within = (kinks > max(self._shortest, JUST * end)) & (kinks < left - ROUNDED * end)
+        ends = [*kinks[within].tolist(), left]
+        reached = ends[: bisect_right(ends, step)]
+        straight = bisect_right(reached, STRAIGHT, key=lambda each: self.scene.bend(t, t + each))
+        return ends[max(straight - 1, 0)]
+
+    @cached_property
+    def _kinks(self):
+        return np.unique(self.scene.kinks())
 
     def _in_cells(self, t, step):
         """A step in which the surfaces go no more cells than they may, a whole number where they go more
@@ -126,20 +129,19 @@ class Pace:
         return self.scene.most_cells(way, self.mesh)
 
 
-FEW = 2
-"""Kinks within two steps from which on they are rows of something smooth."""
-
-
 class Retraced:
     """The steps of a march that has ended, two at a time, but for kinks: those of a comparison."""
 
     def __init__(self, times, scene):
-        """`times` are the ends of its steps in s."""
-        ends = sorted({0.0, *times[1::2], times[-1]})
-        kinks = np.sort(scene.kinks())
-        within = [kinks[(kinks > begin) & (kinks < end)] for begin, end in pairwise(ends)]
-        sharp = [float(kink) for each in within if len(each) <= FEW for kink in each]
-        self._times, self._crumb = sorted({*ends, *sharp}), JUST * times[-1]
+        """`times` are the ends of its steps in s. A kink that was the end of one is met where speed, load
+        or angle bend much: others are rows of something smooth."""
+        self._crumb, kinks = JUST * times[-1], np.array(scene.kinks())
+        ends = {*times[1::2], times[-1]}
+        for begin, middle, end in zip([0.0, *times[1::2]], times[::2], times[1::2], strict=False):
+            is_kink = kinks.size and np.abs(kinks - middle).min() <= self._crumb
+            if is_kink and scene.bend(begin, end) > STRAIGHT:
+                ends.add(middle)
+        self._times = sorted(ends)
 
     def first(self):
         """The first step in s."""

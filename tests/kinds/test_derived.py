@@ -51,9 +51,10 @@ def test_inner_and_outer_ring_of_one_bearing_have_the_same_speed():
     ball = {"body_1.diameter": "10 mm", "motion.ring_rotation": "6000 rpm"}
     inner, outer = (of(ball | {"body_2.diameter": f"{d} mm"}).motion.speed for d in (40, -60))
     assert inner == pytest.approx(outer, rel=1e-14)
-    # Whichever body is named first.
-    swapped = {"body_2.diameter": "10 mm", "body_1.diameter": "40 mm", "motion.ring_rotation": "6000 rpm"}
-    assert of(swapped).motion.speed == pytest.approx(inner, rel=1e-14)
+    # Whichever body is named first: the one with a groove, or hollow, is the ring.
+    turned = {"body_2.diameter": "10 mm", "motion.ring_rotation": "6000 rpm"}
+    for ring in ({"body_1.diameter": "40 mm", "body_1.conformity": 0.52}, {"body_1.diameter": "-60 mm"}):
+        assert of(turned | ring).motion.speed == pytest.approx(inner, rel=1e-14)
     # No slip: the ring turns against the cage, which turns by half as much as the ball's centre is away.
     omega = 200.0 * pi
     assert inner == pytest.approx((omega - 0.5 * omega * (1.0 - 0.2)) * 20e-3, rel=1e-14)

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from contacts import solved
 
+from mgehl.config import config_from_tables
+from mgehl.kinds import contact_from
 from mgehl.output.dry_summary import summarise_dry
 from mgehl.output.result import Making, Work
 from mgehl.solver.dry import solve_dry
@@ -127,6 +129,19 @@ class TestBands:
         assert finds(coarse.dry_error, coarse, fine) == (True, True, True)
         assert coarse.dry_error.area_fraction < 0.05 and coarse.dry_error.how.endswith("to 33 nodes")
         assert "bands: that of the area by the length of its edge" in str(coarse)
+
+    def test_peaks_that_the_coarser_grid_does_not_have_are_no_matter(self, tmp_path):
+        """All that presses stood between its nodes: a run that had converged ended there."""
+        ball = {"contact": {"load": 2.0}, "grid": {"nodes": 65, "x": [-2.0, 2.0], "y": [-2.0, 2.0]}}
+        cell = contact_from(config_from_tables(ball)).x_scale / 16.0
+        (tmp_path / "peaks.py").write_text(
+            "import numpy as np\n\n\ndef peaks(x, y):\n"
+            f"    X, Y = (np.pi / 4.0 * (each / {cell!r} - 1.0) for each in (x, y))\n"
+            "    return 2e-6 * (np.cos(X) + np.cos(Y))\n"
+        )
+        found = solved(ball, DRY, {"contact": {"surface": f"{tmp_path}/peaks.py:peaks"}})
+        assert found.result.converged and not found.fields.P[::2, ::2].any()
+        assert found.result.dry_error.area_fraction > 0.0
 
     @pytest.mark.parametrize(
         "tables, why",

@@ -47,8 +47,12 @@ def test_rows_of_something_smooth_are_no_kinks(tmp_path):
     times = np.linspace(0.0, 4e-3, 4001)
     table = tmp_path / "load.csv"
     np.savetxt(table, np.column_stack([times, 15.0 + 5.0 * np.sin(1e3 * times)]), delimiter=",")
-    pace = Retraced([1e-3, 2e-3, 3e-3, 4e-3], scene(contact__load=str(table), time__end=4e-3))
-    assert pace.first() == pytest.approx(2e-3) and pace.next(2e-3) == pytest.approx(2e-3)
+    found = scene(contact__load=str(table), time__end=4e-3)
+    for step in (1e-4, 1e-6):  # that of the rows
+        steps = (step * np.arange(1, 5)).tolist()
+        pace = Retraced(steps, found)
+        assert pace.first() == pytest.approx(2.0 * step)
+        assert pace.next(steps[1]) == pytest.approx(2.0 * step)
 
 
 def row(t, step, value, **more):
