@@ -216,7 +216,7 @@ def _describe_range(rules):
 
 def _interval(key, value):
     value = value.tolist() if hasattr(value, "tolist") else value  # numpy's
-    if value == AUTO:
+    if isinstance(value, str) and value.casefold() == AUTO:
         return AUTO
     is_pair = isinstance(value, list | tuple) and len(value) == 2 and all(map(_is_number, value))
     if not is_pair or not (-FARTHEST <= value[0] < -1.0 and 1.0 < value[1] <= FARTHEST):

@@ -65,6 +65,7 @@ def test_units_end_as_SI_floats(setting, value):
     "setting, value",
     [("grid.nodes=513", 513), (" grid.nodes = 129 ", 129), ("grid.nodes=129.0", 129),
      ("grid.x=[-4.5, 1.5]", (-4.5, 1.5)), ("grid.y=[-3, 3]", (-3.0, 3.0)), ("grid.x=auto", "auto"),
+     ("grid.x=Auto", "auto"),
      ("discretization.couette=S2C", "S2C"), ('discretization.couette="2B"', "2B"),
      ("lubricant.viscosity_law=roelands", "roelands"), ("lubricant.density_law=constant", "constant"),
      ("solver.error=false", False), ("lubricant.viscosity_law=Roelands", "roelands"),

@@ -20,8 +20,7 @@ END = "*"
 
 HOLES = {"", "nan", "inf", "-inf", "bad", "nodata", "none", "null", "na", "n/a", "-", "--", "---", "***"}
 HOLES |= {"#n/a", "#na", "#nv", "#div/0!", "?", "nan(ind)", "-nan", "-nan(ind)"}
-HOLES |= {f"{sign}1.#{name}" for sign in ("", "-") for name in ("qnan", "ind", "inf")}
-"""Words that stand for a number that is not there."""
+"""Words that stand for a number that is not there, besides those of Microsoft's C, such as 1.#QNAN."""
 
 SEPARATORS = ";", "\t", ",", None
 """None: blanks."""
@@ -224,7 +223,7 @@ def _words(line, separator):
 
 
 def _is_hole(word):
-    return word.lower() in HOLES
+    return word.lower() in HOLES or re.match(r"[-+]?1\.#", word) is not None
 
 
 def _is_number(word):

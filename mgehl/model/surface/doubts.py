@@ -66,10 +66,8 @@ def farthest(z):
 def outstanding(z, step):
     """Number of points that stand out of all eight neighbours, and the `Point` that does most. Form and
     tilt are no matter, and few such points do not change what a usual step is."""
-    least, most = (
-        function(z, footprint=_RING, mode="mirror")
-        for function in (ndimage.minimum_filter, ndimage.maximum_filter)
-    )
+    least = ndimage.minimum_filter(z, footprint=_RING, mode="constant", cval=np.inf)
+    most = ndimage.maximum_filter(z, footprint=_RING, mode="constant", cval=-np.inf)
     over = z - np.clip(z, least, most)
     usual = np.percentile(np.abs(np.concatenate([np.diff(z, axis=k).ravel() for k in (0, 1)])), LARGE)
     found = np.abs(over) > max(BEYOND * usual, STEEP * step)

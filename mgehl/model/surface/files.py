@@ -65,14 +65,20 @@ def _read_numpy(path):
             with open(path, "rb") as file:
                 _check_bytes(path, "its array", file)
             heights = _numbers(path, np.load(path, allow_pickle=False))
-            return Map.of_profile(path, heights) if heights.ndim == 1 else Map(path, heights)
+            return _matrix_or_profile(path, heights)
         with np.load(path, allow_pickle=False) as archive:
             found = _Arrays(path, archive)
             heights = _numbers(path, _heights(path, found))
             units = {name: _unit(path, found, name) for name in ("height_unit", "position_unit")}
-            return Map(path, heights, **_steps(path, found, heights.shape), **units)
+            return _matrix_or_profile(path, heights).told(**_steps(path, found, heights.shape), **units)
     except (ValueError, EOFError, zipfile.BadZipFile) as error:
         raise SurfaceFileError(path, f"is no file of numpy's numbers: {one_line(error)}") from None
+
+
+def _matrix_or_profile(path, heights):
+    """The `Map` of an array: of one row or column, or of one axis, that of a profile."""
+    is_line = heights.ndim == 1 or (heights.ndim == 2 and 1 in heights.shape)
+    return Map.of_profile(path, heights.ravel()) if is_line else Map(path, heights)
 
 
 class _Arrays:

@@ -73,6 +73,14 @@ def test_a_pixel_of_20_um_stands_out_and_a_good_map_does_not(z):
         assert point.height == pytest.approx(height, rel=0.2)
 
 
+def test_a_point_of_a_profile_stands_out():
+    good = NOISE.reshape(1, -1)
+    wrong = good.copy()
+    wrong[0, 17] += 20e-6
+    count, point = outstanding(wrong, STEP)
+    assert (count, point.row, point.column) == (1, 1, 18) and outstanding(good, STEP)[0] == 0
+
+
 def test_a_height_for_missing_ones_is_apart_from_all_others():
     wrong = NOISE.copy()
     wrong[3:6, 8:11] = -32768e-9

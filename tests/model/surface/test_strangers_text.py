@@ -223,7 +223,9 @@ def test_decimal_commas_between_commas_and_blanks(tmp_path):
 def test_one_row_or_column_is_a_profile(tmp_path, shape):
     np.savetxt(tmp_path / "z.txt", NOISE.reshape(shape))
     np.save(tmp_path / "z.npy", NOISE.ravel())
-    for name in ("z.txt", "z.npy"):
+    np.save(tmp_path / "column.npy", NOISE.reshape(shape))
+    np.savez(tmp_path / "z.npz", heights=NOISE.reshape(shape))
+    for name in ("z.txt", "z.npy", "column.npy", "z.npz"):
         found = read_map(tmp_path / name)
         assert found.is_profile and found.dx is None
         np.testing.assert_array_equal(found.heights[0], NOISE.ravel())
