@@ -11,6 +11,7 @@ from mgehl.model.contact import RESOLVED_CELLS
 from mgehl.model.peaks import reach_of_peaks
 from mgehl.model.starvation import Starvation
 from mgehl.output import surface
+from mgehl.solver.verification import FEWEST_NODES
 
 SEEN_CELLS = 1.0
 """Cells in the inlet below which the contact set is the grid's, not the problem's."""
@@ -49,6 +50,8 @@ class Resolution:
     """In m/s, that of the inlet where the speed changes with time; None elsewhere."""
     rests: bool = False
     """Whether the surfaces come to rest, where no grid resolves the inlet."""
+    nodes_at_rest: float | None = None
+    """Cells across the contact in which the bodies stand then; None elsewhere, and in older results."""
 
     @property
     def is_the_grids(self):
@@ -93,7 +96,11 @@ def resolution(contact, mesh, scene=None, film=None):
     found = Resolution(cells, verdict, domain, lost, shown, waves, beyond)
     if scene is None or scene.is_steady:
         return found
-    return replace(found, inlet_speed=abs(scene.speed.value(scene.slowest)), rests=scene.rests)
+    across = 2.0 / (mesh.dX if mesh.is_line else max(mesh.dX, mesh.dY))
+    return replace(
+        found, inlet_speed=abs(scene.speed.value(scene.slowest)), rests=scene.rests,
+        nodes_at_rest=across if scene.rests else None,
+    )  # fmt: skip
 
 
 def inlet_speed_words(resolution):
@@ -109,8 +116,11 @@ def of_inlet(resolution):
 
 
 def near_rest(resolution):
-    """What else to think of an inlet whose surfaces come to rest."""
-    return "; near rest no grid resolves it" if resolution.rests else ""
+    """What else to think of an inlet whose surfaces come to rest, and of the contact they stand in."""
+    few, cells = resolution.nodes_at_rest, ""
+    if few and few < FEWEST_NODES:
+        cells = f", and the contact has {few:.1f} cells across there, too few for a verdict"
+    return f"; near rest no grid resolves it{cells}" if resolution.rests else ""
 
 
 def inlet_words(resolution, advice):

@@ -114,7 +114,9 @@ def test_a_bearing_that_sucks_names_what_would_let_its_film_tear(cavitation):
     "more, words",
     [({}, "5.00 cells, resolved"),
      ({"inlet_speed": 0.3}, "5.00 cells at the slowest, 300 mm/s, resolved"),
-     ({"inlet_speed": 8.0, "rests": True}, "5.00 cells at 8 m/s, resolved; near rest no grid resolves it")],
+     ({"inlet_speed": 8.0, "rests": True}, "5.00 cells at 8 m/s, resolved; near rest no grid resolves it"),
+     ({"inlet_speed": 8.0, "rests": True, "nodes_at_rest": 0.5}, "5.00 cells at 8 m/s, resolved; near rest "
+      "no grid resolves it, and the contact has 0.5 cells across there, too few for a verdict")],
 )  # fmt: skip
 def test_the_inlet_of_a_run_in_time_is_that_of_a_speed(more, words):
     assert f"  inlet: {words}" in str(make_result(resolution=Resolution(5.0, "resolved", **more)))
