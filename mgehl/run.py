@@ -11,7 +11,7 @@ from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import Case, case_of, checked_case
 from mgehl.kinds.bodies import arms
 from mgehl.kinds.own import naming_keys
-from mgehl.kinds.time import of_formulas
+from mgehl.kinds.time import of_formulas, with_room_for
 from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint, begin_run
 from mgehl.output.diary import Comparison, Diary
@@ -45,7 +45,7 @@ from mgehl.solver.in_time import march, march_beside
 from mgehl.solver.journal import Asked
 from mgehl.solver.nested import single_loop
 from mgehl.solver.recipe_words import plain
-from mgehl.solver.restart import solve_from, with_room_for
+from mgehl.solver.restart import solve_from
 from mgehl.solver.task import Task
 
 

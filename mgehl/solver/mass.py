@@ -20,11 +20,6 @@ LEAST_THROUGH = 1e-4
 contact. With 0.01 slow balls without layers may make 3e-8 of what enters their ellipse."""
 
 
-LEAST_CARRIED = 0.1
-"""What counts as flowing into the domain at the least, in units of H and Y: behind walls nothing but
-rounding does."""
-
-
 @dataclass(frozen=True)
 class Mass:
     """Oil at ambient density in m^3/s, of a line contact in m^2/s."""
@@ -39,7 +34,7 @@ class Mass:
     largest_node: float
     """The largest such difference of a single node, whatever its sign."""
     carried_in: float
-    """What flows into the domain, from whatever side; at the least `LEAST_CARRIED`."""
+    """What flows into the domain, from whatever side; of a bearing at the least what its plate carries."""
 
     @property
     def made(self):
@@ -75,7 +70,7 @@ def account(problem, state, evaluation, inside, unit):
     largest = grid.max(np.abs(np.where(inner, evaluation.inflow, 0.0)), initial=0.0)
     through = _through(problem, evaluation, inside)
     carried_in, _ = _through(problem, evaluation, _in_domain(grid, evaluation.status != BOUNDARY))
-    balance = *(cell * each for each in made), cell * largest, max(carried_in, LEAST_CARRIED)
+    balance = *(cell * each for each in made), cell * largest, carried_in
     return Mass(*(float(unit * each) for each in (*through, *balance)))
 
 

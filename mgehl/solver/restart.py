@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 
-from mgehl.config_value import AUTO
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import UserError
 from mgehl.grid.onto import onto, smoothly_onto
@@ -91,21 +90,6 @@ def check_start(start, case):
             f"start: its heights differ by {100.0 * off:.3g} % from those that this run in time begins "
             "with: films go on between the same heights, moved by the same motion.slide_to_roll"
         )
-
-
-def with_room_for(start, case, config):
-    """The `Config` of a `Case` in time: where `config` has "auto", its domain holds that of the `Solution`
-    it goes on from, too. Films that are there may be thicker than those of the speeds to come."""
-    ours, theirs, grid = case.contact, start.contact, case.config.grid
-    if start.config.contact.kind != config.contact.kind:
-        return case.config
-    wider = {"x": theirs.x_scale / ours.x_scale, "y": theirs.y_scale / ours.y_scale}
-    ends = {}
-    for name in "x" if ours.is_line else "xy":
-        (first, last), old = (getattr(each, name) for each in (grid, start.config.grid))
-        if getattr(config.grid, name) == AUTO:
-            ends[name] = min(first, wider[name] * old[0]), max(last, wider[name] * old[1])
-    return replace(case.config, grid=replace(grid, **ends))
 
 
 def _other_heights(start, case):

@@ -32,10 +32,6 @@ LOADED = 0.1
 """Pressure of the loaded zone over the largest: 0.995 semi-axes of a dry contact, more of a light one."""
 
 
-ROUNDING = 1e-10
-"""Inflow in units of H and Y below which nothing flows: behind walls all around only rounding does."""
-
-
 @dataclass(frozen=True)
 class Edge:
     """How a solution stands in its domain and on its grid."""
@@ -163,7 +159,7 @@ def flux_imbalance(problem, evaluation):
     flow = np.concatenate([width * each for width, *flows in borders for each in flows])
     total = problem.grid.sum(flow.sum())
     inflow = problem.grid.sum(flow[flow > 0.0].sum())
-    return abs(total) / inflow if inflow > ROUNDING else 0.0
+    return abs(total) / inflow if inflow > 0.0 else 0.0
 
 
 def closed_face_flow(problem, evaluation):
