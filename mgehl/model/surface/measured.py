@@ -21,6 +21,9 @@ CONTINUATIONS = {"none": "nearest", "mirror": "mirror", "periodic": "grid-wrap"}
 REMOVED = {"nothing": (), "mean": (0,), "tilt": (0, 1), "curvature": (0, 1, 2)}
 """What may be taken off, and the degrees of the polynomials that it is."""
 
+ENOUGH = 200
+"""Points along a side that tell a form."""
+
 STANDS_OUT = 4.0
 """Height of a parabola over the rms of the rest from which on it is a form."""
 
@@ -73,10 +76,11 @@ class Heights:
     def form_radius(self):
         """Smallest radius of the parabola that is nearest to the points, in m; inf where what is left of
         them is of its size: any rough surface has some."""
-        form = _form(self.points, REMOVED["curvature"])
+        some = self.points[tuple(slice(None, None, 1 + n // ENOUGH) for n in self.points.shape)]
+        form = _form(some, REMOVED["curvature"])
         parabola = form - _form(form, REMOVED["tilt"])
         bends = [np.ptp(parabola, axis=axis).max() for axis in (1, 0)]
-        if not max(bends) > STANDS_OUT * np.std(self.points - form):
+        if not max(bends) > STANDS_OUT * np.std(some - form):
             return np.inf
         return min(size**2 / (8.0 * max(bend, 1e-300)) for size, bend in zip(self.size, bends, strict=True))
 

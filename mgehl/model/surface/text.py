@@ -189,9 +189,7 @@ def _order(heading):
     """Columns of x, y and z by the names over them; as they stand where these are no such names."""
     names = [re.match(r"\W*([xyz])\b", cell, re.I) for cell in heading or ()]
     names = [name and name[1].lower() for name in names]
-    return (
-        [names.index(axis) for axis in "xyz"] if sorted(map(str, names)) == ["x", "y", "z"] else [0, 1, 2]
-    )
+    return [names.index(axis) for axis in "xyz"] if {"x", "y", "z"} == {*names} else [0, 1, 2]
 
 
 def _from_profile(path, table):
