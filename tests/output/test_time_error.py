@@ -92,6 +92,18 @@ def test_what_grids_tell_too_differently_has_no_band():
     assert found.at_the_end == {}
 
 
+def test_the_mean_load_on_contact_that_opens_has_no_band():
+    """It hangs on when: a ball that starts from rest had .09 ± .07 for .2."""
+
+    def from_shares(fine, coarse):
+        both = zip((fine, coarse), (rows(lambda k: 1.0, every) for every in (1, 2)), strict=True)
+        told = [[each | {"load_on_contact": share(k)} for k, each in enumerate(of)] for share, of in both]
+        return from_rows(*told, scene()).means
+
+    assert "load_on_contact" not in from_shares(lambda k: float(k < 4), lambda k: float(k < 2))
+    assert from_shares(lambda k: 0.03, lambda k: 0.04)["load_on_contact"] == pytest.approx(0.015)
+
+
 def test_the_largest_pressure_has_what_it_may_be_larger_between_nodes():
     fine = [each | {"pressure_crest": 0.02} for each in rows(lambda k: 1.0)]
     found = from_rows(fine, rows(lambda k: 1.1, coarse=2), scene())
