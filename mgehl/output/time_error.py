@@ -84,6 +84,7 @@ def _half_widths(pairs, of_last=False):
     """{column: half-width} about means of pairs of rows, or about the last of them."""
     steps = np.array([row["step_s"] for _, row in pairs])
     weights, found = steps / steps.sum(), {}
+    opens = not of_last and max(np.ptp([row[name] for row, _ in pairs]) for name in SHARES) > OPENS
 
     def told(values):
         return float(values[-1] if of_last else weights @ values)
@@ -93,8 +94,8 @@ def _half_widths(pairs, of_last=False):
         # A difference that changes its sign with time is small in an instant, or on average, by chance.
         apart = float(weights @ np.abs(fine - coarse))
         value, difference = told(fine), abs(told(fine) - told(coarse))
-        opens = name in SHARES and not of_last and np.ptp(fine) > OPENS
-        found[name] = None if opens else _half_width(name, value, max(difference, apart), apart)
+        half = _half_width(name, value, max(difference, apart), apart)
+        found[name] = None if opens and name in SHARES else half
     crest, pressure = (np.array([row[name] for row, _ in pairs]) for name in ("pressure_crest", PRESSURE))
     if told(crest) > NARROW:
         found |= dict.fromkeys((PRESSURE, "friction"))  # a spike that three nodes do not hold decides

@@ -96,11 +96,17 @@ def test_the_mean_load_on_contact_that_opens_has_no_band():
     """It hangs on when: a ball that starts from rest had .09 ± .07 for .2."""
 
     def from_shares(fine, coarse):
-        both = zip((fine, coarse), (rows(lambda k: 1.0, every) for every in (1, 2)), strict=True)
-        told = [[each | {"load_on_contact": share(k)} for k, each in enumerate(of)] for share, of in both]
+        told = [
+            [
+                each | {"load_on_contact": share(k), "load_on_solids": 0.1 * share(k)}
+                for k, each in enumerate(of)
+            ]
+            for share, of in both
+        ]
         return from_rows(*told, scene()).means
 
-    assert "load_on_contact" not in from_shares(lambda k: float(k < 4), lambda k: float(k < 2))
+    opens = from_shares(lambda k: float(k < 4), lambda k: float(k < 2))
+    assert opens.keys().isdisjoint({"load_on_contact", "load_on_solids"})
     assert from_shares(lambda k: 0.03, lambda k: 0.04)["load_on_contact"] == pytest.approx(0.015)
 
 
