@@ -95,15 +95,15 @@ def test_what_grids_tell_too_differently_has_no_band():
 def test_the_mean_load_on_contact_that_opens_has_no_band():
     """It hangs on when: a ball that starts from rest had .09 ± .07 for .2."""
 
-    def from_shares(fine, coarse):
-        told = [
-            [
-                each | {"load_on_contact": share(k), "load_on_solids": 0.1 * share(k)}
-                for k, each in enumerate(of)
-            ]
-            for share, of in both
+    def told(every, share):
+        found = rows(lambda k: 1.0, every)
+        shares = [
+            {"load_on_contact": share(k), "load_on_solids": 0.1 * share(k)} for k in range(len(found))
         ]
-        return from_rows(*told, scene()).means
+        return [each | of for each, of in zip(found, shares, strict=True)]
+
+    def from_shares(fine, coarse):
+        return from_rows(told(1, fine), told(2, coarse), scene()).means
 
     opens = from_shares(lambda k: float(k < 4), lambda k: float(k < 2))
     assert opens.keys().isdisjoint({"load_on_contact", "load_on_solids"})
