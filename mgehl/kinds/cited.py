@@ -17,7 +17,9 @@ def cited(config, contact):
             MATERIALS[body.material].source for body in (config.body_1, config.body_2) if body.material
         ]
     section = config.lubricant
-    if not config.is_dry:
+    if config.is_dry:
+        found += ["yastrebov2017"] if config.solver.error and not contact.is_line else []
+    else:
         if section.oil is not None:
             found.append(OILS[section.oil].source)
         if section.kinematic_viscosity_40 is not None:

@@ -55,6 +55,12 @@ SOURCES = {
         "book", "Johnson, K. L.", 1985, "Contact Mechanics", "Cambridge University Press",
         "10.1017/CBO9781139171731",
     ),
+    "yastrebov2017": Source(
+        "article", "Yastrebov, V. A. and Anciaux, G. and Molinari, J.-F.", 2017,
+        "On the accurate computation of the true contact-area in mechanical contact of random rough "
+        "surfaces",
+        "Tribology International 114, 161-171",
+    ),
     "barus1893": Source(
         "article", "Barus, C.", 1893, "Isothermals, isopiestics and isometrics relative to viscosity",
         "American Journal of Science 45, 87-96", "10.2475/ajs.s3-45.266.87",

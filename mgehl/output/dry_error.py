@@ -19,7 +19,6 @@ OF_AN_END = 0.6
 """Cells that an end of contact of a line may be off: it lies anywhere within half a cell, and twenty lines
 on 129 to 2049 nodes were off by at most 0.56."""
 
-
 BY_CHANCE = 1.5
 """Times the difference to the next coarser grid that the band about the approach is: by one of itself 6 of
 116 were too narrow, by up to 1.42."""
@@ -53,15 +52,14 @@ def why_no_band(result, asked):
 
 
 def dry_error(result, problem, state, coarser):
-    """The `DryError` of a dry `Result`, its `problem` and `state`; `coarser` is the `OnCoarser` of
-    the next grid, None where there is none (collective)."""
+    """The `DryError` of a dry `Result`, its `problem` and `state`; `coarser` is the `OnCoarser` of the next
+    grid, None where there is none (collective)."""
     area = result.contact.area_fraction * edge_error(problem, state.status) / result.contact.nodes
     of_area = "that of the area by the length of its edge"
-    if coarser is None or not coarser.settled:
-        why_not = (
-            "there is no coarser grid" if coarser is None else f"on {coarser.nodes} nodes nothing settled"
-        )
-        return DryError(area, None, None, f"{of_area}, no others: {why_not}")
+    if coarser is None:
+        return DryError(area, None, None, f"{of_area}, no others: there is no coarser grid")
+    if not coarser.settled:
+        return DryError(area, None, None, f"{of_area}, no others: {coarser.nodes} nodes did not settle")
     carried, GPa = loads(problem, state), 1e-9 * problem.contact.hertz.p_h
     pressure = GPa * (carried.crest + half_width(carried.largest, coarser.largest, coarser.apart))
     approach = 1e6 * BY_CHANCE * problem.contact.film_scale * abs(state.H0 - coarser.H0)

@@ -17,7 +17,7 @@ FIRST_STEPS = 200
 """Steps that a run is expected to take where nothing moves."""
 
 COUNTED = 1000
-"""Steps that are counted before a run; what comes after these is taken to be as many a second."""
+"""Steps that are counted before a run; after these the run is taken to need as many a second."""
 
 AIM = 2e-3
 """Rms of what a step's pressures differ from a straight line in time, over their own rms."""
@@ -66,8 +66,8 @@ class Pace:
         """The first step in s."""
         return self.fixed or min(self.scene.end / FIRST_STEPS, self.scene.unit * self.mesh.dX)
 
-    def next(self, t, before, error, halved):
-        """The step at a time `t` after one of `before` s that had an `error`, and was `halved` or not."""
+    def next(self, _t, before, error, halved):
+        """The step after one of `before` s that had an `error`, and was `halved` or not."""
         if self.fixed:
             return min(2.0 * before, self.fixed)
         if self.scene.moves:

@@ -73,7 +73,7 @@ def test_a_run_cites_what_it_used():
     assert {"schott", "iso6336", "arana2019", "dowson1966", "hamrock1977", "grubin1949"} <= set(found)
     assert "barus1893" not in found and set(found) <= set(SOURCES)
     dry = load_config(None, {"discretization.contact_model": "dry"})
-    assert cited(dry, contact_from(dry)) == ["liu2021", "johnson1985"]
+    assert cited(dry, contact_from(dry)) == ["liu2021", "johnson1985", "yastrebov2017"]
     wedge = load_config(CONFIGS / "wedge_open.toml")
     assert cited(wedge, contact_from(wedge)) == ["liu2021"]
 
