@@ -234,9 +234,8 @@ class March:
         problem, last = self._problem, standing.state
         P, H0 = last.P, last.H0
         if not halvings and not problem.grid.count(last.status == CONTACT):
-            weights = _continued(standing.times, t)
-            tears_at = problem.contact.tears_at
-            P = np.maximum(np.tensordot(weights, standing.P, 1), tears_at)
+            weights, tears_at = _continued(standing.times, t), problem.contact.tears_at
+            P = np.maximum(_fading(np.tensordot(weights, standing.P, 1), standing, t, tears_at), tears_at)
             P, H0 = np.where(last.P > tears_at, P, tears_at), float(np.dot(weights, standing.H0))
         status = np.where(last.status == BOUNDARY, BOUNDARY, last.status)
         return problem.state(P, H0, status, last.p.copy(), last.filling.copy())
@@ -256,6 +255,19 @@ class March:
         standing.H0 = [*standing.H0[last:], state.H0]
         before = [] if standing.P is None else list(standing.P[last:])
         standing.P = np.stack([*before, state.P])
+
+
+def _fading(P, standing, t, nothing):
+    """The pressures `P` that a parabola leads to at a time `t`; where it falls by more than half to
+    `nothing`, those that fade as they did before. Peaks that leave the contact would be gone at once, and
+    a handful of such nodes makes up most of a guess's residual."""
+    if len(standing.times) < 2:
+        return P
+    before, last = standing.P[-2:] - nothing
+    steps = (t - standing.times[-1]) / (standing.times[-1] - standing.times[-2])
+    fades = (0.0 < last) & (last < before) & (P - nothing < 0.5 * last)
+    P[fades] = nothing + last[fades] * (last[fades] / before[fades]) ** steps
+    return P
 
 
 def _continued(times, t):

@@ -29,7 +29,10 @@ from mgehl.solver.position import Position, Step
 from mgehl.solver.remembered import Remembered
 from mgehl.solver.snes import PythonSnes
 from mgehl.solver.squeeze import squeeze_rates
-from mgehl.solver.step_length import step_length
+from mgehl.solver.step_length import as_oil_flows, step_length
+
+ENOUGH = 0.5
+"""Part of what a step in time may leave that its last linear system leaves: the rest is Newton's."""
 
 
 class Newton(PythonSnes):
@@ -121,8 +124,7 @@ class Newton(PythonSnes):
         self._snes.computeJacobian(self._unknown, *ksp.getOperators())
         self._leave_out_the_layers(F)
         self._space.write_pressure(self._rhs, F)
-        finely = min(self._linear_tolerance, IN_TURN_TOLERANCE)
-        ksp.setTolerances(rtol=finely if self._in_turn else self._linear_tolerance)
+        ksp.setTolerances(rtol=self._how_finely())
         with linear_solve():
             ksp.solve(self._rhs, self._correction)
         self._multigrid.forget()
@@ -131,6 +133,16 @@ class Newton(PythonSnes):
         if reason == PETSc.KSP.ConvergedReason.DIVERGED_MAX_IT:
             position.stalls += ksp.getResidualNorm() > UNSOLVED * self._rhs.norm()
         return reason
+
+    def _how_finely(self):
+        """The relative tolerance of the next linear system."""
+        if self._in_turn:
+            return min(self._linear_tolerance, IN_TURN_TOLERANCE)
+        if not self._settings.in_time:
+            return self._linear_tolerance
+        _, asked, _, _ = self._snes.getTolerances()
+        last = ENOUGH * asked / self._position.cycles[-1].residual
+        return max(self._linear_tolerance, min(last, ENOUGH))
 
     def _pose(self):
         """Pose the linear system: rows, 1/time step; return its right-hand side, (lines, nx)."""
@@ -154,14 +166,16 @@ class Newton(PythonSnes):
         problem, position = self._problem, self._position
         state, changes = position.state, position.changes
         c, dH0 = self._space.read(self._correction)
-        dP = self._multigrid.jacobian.pressures(c)
+        asked = dP = self._multigrid.jacobian.pressures(c)
+        if self._settings.in_time:
+            dP = as_oil_flows(problem, self._evaluation, state, asked)
         where = problem, self._partition, self._evaluation, state
         length, H, dH = step_length(*where, dP, dH0, self._settings, self._in_turn)
         if self._layers:
             self._layers.follow(state, c, dH, length)
         state.P -= length * dP
         state.H0 -= length * dH0
-        state.filling -= length * (c - dP)
+        state.filling -= length * (c - asked)
         self._partition.cut_tension(state, changes, self._in_turn)
         state.H = problem.gap(state.P, state.H0) if H is None else H
         self._partition.follow_gap(state, changes, self._in_turn)

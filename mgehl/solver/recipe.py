@@ -17,7 +17,7 @@ from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions
 from mgehl.discretization.fluid import ARITHMETIC, FOLDING
 from mgehl.discretization.scheme import Scheme
 from mgehl.multigrid.cycle import CycleSettings
-from mgehl.solver.settings import NewtonSettings
+from mgehl.solver.settings import PASSING_TOLERANCE, NewtonSettings
 
 NONE, COVERED, NEAR, TOUCHING = "none", "covered", "near", "touching"
 """Peaks: none; below a film of `THICK`; near the other body; reaching through the film that smooth bodies
@@ -116,11 +116,12 @@ def recipe_of(settings, contact, begins=None):
 
 
 def recipe_in_time(settings, contact):
-    """The `Recipe` of a step in time: what the surfaces carry is known. Where bodies part, shut-in oil
-    fills gaps as small as rounding: their nodes would change for ever, with no residual to tell."""
+    """The `Recipe` of a step in time: what the surfaces carry is known. Sets may still change in its last
+    Newton step: the residual is that of the sets after it. Where bodies part, shut-in oil fills gaps as
+    small as rounding, whose nodes would change for ever."""
     recipe = recipe_of(settings, contact, A_STATE)
     limits = {"max_work": 10**9, "max_steps": STEPS_IN_TIME, "idle_steps": STEPS_IN_TIME}
-    newton = replace(recipe.newton, squeeze=0.0, certain=settings.newton.tolerance, **limits)
+    newton = replace(recipe.newton, squeeze=0.0, in_time=True, certain=PASSING_TOLERANCE, **limits)
     return replace(recipe, scheme=replace(recipe.scheme, motion=(0.0, 0.0)), newton=newton)
 
 

@@ -45,6 +45,9 @@ class NewtonSettings:
     """Whether the film's change bounds steps, too: where it closes as continuously as it opens."""
     squeeze: float = SolverSection.squeeze
     """Rate of implicit time steps per rms residual and cell (`solver.squeeze`); 0 for Newton's own."""
+    in_time: bool = False
+    """Whether the state is one of many, near the one before: it is solved no further than is asked, and
+    pressures fall as the viscosity lets them."""
 
     def squeezed(self):
         """The same with a squeeze of `SQUEEZE` at the least."""

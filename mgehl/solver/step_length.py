@@ -4,12 +4,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mgehl.discretization.axes import own
 from mgehl.discretization.status import LUBRICATED
 from mgehl.solver.squeeze import share_of_the_gap
 
 LARGEST_CHANGE, MOST_OF_A_NODE = 0.5, 20.0
 """Mean change of a film by a step, over itself, where it closes continuously, and what a node counts at the
 most: an emptied valley lifts bodies by several films. With 1, with 0.2 and without, thin films fail."""
+
+LINEAR = 1e-6
+"""Change of the logarithm of the viscosity in a step that makes no difference."""
 
 SMALLEST = 1e-300
 """So that nothing is divided by zero."""
@@ -38,6 +42,24 @@ def step_length(problem, partition, evaluation, state, dP, dH0, settings, in_tur
     allowed = LARGEST_CHANGE / max(mean_change(problem, evaluation, state, H), SMALLEST)
     falls = (state.H - H) / part
     return Length(part, H, falls) if allowed >= 1.0 else Length(part * allowed, falls=falls)
+
+
+def as_oil_flows(problem, evaluation, state, dP):
+    """The step -dP (lines, nx) with films that fall as far as the oil's flow is linear in what falls.
+
+    By a monotone mean what pressure drives between two nodes is the difference of their reduced pressures
+    q = (1 - e^(-alpha P))/alpha, not of P: where P falls in stiff oil, a step that is linear in P leads to
+    several times the fall. -dP as a step of q is a fall of P by ln(1 + alpha dP)/alpha. Where the gap
+    answers to the pressure instead, alpha counts for less. A rise by q has no bound: it is left.
+    """
+    fluid = evaluation.fluid
+    stiffens = -own(fluid.deps_dP) / np.maximum(own(fluid.eps), SMALLEST)
+    stiffens *= 1.0 - share_of_the_gap(problem, evaluation)
+    exponent = stiffens * dP
+    bent = (state.status == LUBRICATED) & (exponent > LINEAR)
+    falls = dP.copy()
+    falls[bent] = np.log1p(exponent[bent]) / stiffens[bent]
+    return falls
 
 
 def _by_pressures(problem, state, dP, settings):

@@ -15,7 +15,7 @@ from mgehl.config import config_from_tables
 from mgehl.run import solve
 from mgehl.studies.study import PAPER, papers_grid
 
-RANKS = 9
+RANKS = 5
 CASES = {
     "film": {"motion": {"speed": 3.0}, "grid": papers_grid(65)},
     "film on coarse grids, too": {"motion": {"speed": 8.0}, "grid": papers_grid(129)},
