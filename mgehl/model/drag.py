@@ -1,16 +1,13 @@
 """What drags bodies that roll and slide beyond the domain, where all is full of oil.
 
-Far from a point contact the pressure is that of rigid bodies [Kapitza 1955], p = -K x/h^2 with
-h = x^2/2R_x + y^2/2R_y. Beside a line contact it rises by dp/dx = 12 eta u (h - h_c)/h^3. Oil between
+Around a point contact the pressure is p = -K x/h^2, as of rigid bodies [Kapitza 1955], in the gap of the
+pressed ones. Beside a line contact it rises by dp/dx = 12 eta u (h - h_c)/h^3. Oil between
 surfaces that slide is sheared as hardly pressed oil is, tau = eta (u_1 - u_2)/h by Newton's law.
 """
 
 import numpy as np
 
 from mgehl.model.conditions import Conditions
-
-DIRECTIONS = 3600
-"""Of the quadrature around the contact, from the middle of each: good to six digits."""
 
 
 def kapitza_factor(lubricant, speed, along, across):
@@ -19,7 +16,10 @@ def kapitza_factor(lubricant, speed, along, across):
 
 
 WAYS = 360
-"""The same of what is sheared: good to four digits."""
+"""Directions of the quadrature around a point contact, from the middle of each: good to four digits."""
+
+STEP = 1e-4
+"""Over the distance: of the differences that tell how the gap opens along the motion."""
 
 NODES, WEIGHTS = (0.5 * each for each in np.polynomial.legendre.leggauss(32))
 """Of the quadrature along a line contact, about its middle: good to ten digits."""
@@ -38,25 +38,22 @@ def line_drag_beyond(contact, x, downstream):
     return 6.0 * contact.lubricant.viscosity * contact.speed * unit * total
 
 
-def kapitza_drag_beyond(contact, x, y, downstream=False):
+def point_drag_beyond(contact, x, y, downstream):
     """Half of the integral of h dp/dx along the motion, in N, from the end of a domain, at `x` and `y` in
     units of X and Y, to a radius of curvature away, where bodies are no paraboloids any more: it grows with
-    the logarithm of that distance. Upstream, and `downstream`, too."""
-    angles = (np.arange(DIRECTIONS) + 0.5) * 2.0 * np.pi / DIRECTIONS
-    c, s = np.cos(angles), np.sin(angles)
+    the logarithm of that distance. Upstream, and `downstream`, too; gap as in `line_drag_beyond`."""
     motion_x, motion_y = contact.motion
     radii, lubricant, speed = (contact.radius_x, contact.radius_y), contact.lubricant, contact.speed
     K_x = kapitza_factor(lubricant, speed * motion_x, *radii)
     K_y = kapitza_factor(lubricant, speed * motion_y, *radii[::-1])
-    curvature = 0.5 * (c**2 / radii[0] + s**2 / radii[1])
-    way = np.minimum(_way(c, x, contact.x_scale), _way(s, y, contact.y_scale))
-    steepness = c * motion_x / contact.radius_x + s * motion_y / contact.radius_y
-    pressing = K_x * c + K_y * s
-    dragged = 2.0 * pressing * steepness / curvature - K_x * motion_x - K_y * motion_y
-    ratio = np.maximum(1.0 / (2.0 * curvature * way), 1.0)
-    return float(
-        np.mean(np.where((pressing < 0.0) | downstream, dragged * np.log(ratio) / curvature, 0.0)) * np.pi
-    )
+
+    def dragged(px, py):
+        h, step = _gap(contact, px, py), STEP * np.hypot(px, py)
+        ahead, behind = (_gap(contact, px + way * motion_x, py + way * motion_y) for way in (step, -step))
+        steepness = (ahead - behind) / (2.0 * step)
+        return 2.0 * (K_x * px + K_y * py) * steepness / h**2 - (K_x * motion_x + K_y * motion_y) / h
+
+    return max(0.5 * _integral_beyond(contact, x, y, downstream, dragged), 0.0)
 
 
 def line_shear_beyond(contact, x, downstream):
@@ -71,18 +68,29 @@ def line_shear_beyond(contact, x, downstream):
 
 
 def point_shear_beyond(contact, x, y, downstream):
-    """The same in N, from the end of a domain, at `x` and `y` in units of X and Y, to a radius of curvature
-    away, as in `kapitza_drag_beyond`."""
+    """The same in N, from the end of a domain, at `x` and `y` in units of X and Y, as far as in
+    `point_drag_beyond`."""
+    return _integral_beyond(
+        contact, x, y, downstream, lambda px, py: _shear_stress(contact, _gap(contact, px, py))
+    )
+
+
+def _integral_beyond(contact, x, y, downstream, stress):
+    """Integral of a `stress` at (x, y) in m from a domain's end to a radius of curvature away."""
     angles = (np.arange(WAYS) + 0.5) * 2.0 * np.pi / WAYS
     c, s = np.cos(angles), np.sin(angles)
     near = np.minimum(_way(c, x, contact.x_scale), _way(s, y, contact.y_scale))
     far = np.maximum(1.0 / (c**2 / contact.radius_x + s**2 / contact.radius_y), near)
     r = near * (far / near) ** (0.5 + NODES[:, None])  # evenly in its logarithm, as what is sheared falls
-    dry = contact.dry_gap(r * c / contact.x_scale, r * s / contact.y_scale)
-    stress = _shear_stress(contact, contact.flooded_film + contact.film_scale * dry)
-    of_each = np.log(far / near) * (WEIGHTS @ (r**2 * stress))
+    of_each = np.log(far / near) * (WEIGHTS @ (r**2 * stress(r * c, r * s)))
     counted = (c * contact.motion[0] + s * contact.motion[1] < 0.0) | downstream
     return float(2.0 * np.pi * np.mean(np.where(counted, of_each, 0.0)))
+
+
+def _gap(contact, x, y):
+    """Of a point contact, in m at (x, y) in m: that of the dry contact and a formula's film."""
+    dry = contact.dry_gap(x / contact.x_scale, y / contact.y_scale)
+    return contact.flooded_film + contact.film_scale * dry
 
 
 def _shear_stress(contact, gap):

@@ -8,7 +8,7 @@ from mgehl.model import films
 from mgehl.model.coating import Coating
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfSpace, LayeredHalfSpace
-from mgehl.model.drag import kapitza_drag_beyond, point_shear_beyond
+from mgehl.model.drag import point_drag_beyond, point_shear_beyond
 from mgehl.model.far_field import missing_share
 from mgehl.model.flash import Solid
 from mgehl.model.frame import Frame, SurfaceInFrame, direction
@@ -176,11 +176,11 @@ class PointContact(LoadedContact):
         return counted * missing_share(self, x, y) if counted else 0.0
 
     def drag_beyond(self, mesh, downstream=False):
-        """By the film of rigid bodies, as far as they are paraboloids."""
-        return kapitza_drag_beyond(self, mesh.x, mesh.y, downstream)
+        """By the film between the bodies as they are pressed, as far as they are paraboloids."""
+        return point_drag_beyond(self, mesh.x, mesh.y, downstream)
 
     def shear_beyond(self, mesh, downstream=False):
-        """By the film between the bodies as they are pressed, as far."""
+        """By the same film, as far."""
         return point_shear_beyond(self, mesh.x, mesh.y, downstream)
 
     def _inlet_of(self, film):

@@ -6,6 +6,8 @@ import numpy as np
 
 from mgehl.discretization.status import is_fluid
 from mgehl.model.flash import has_temperatures
+from mgehl.output.film_error import NOT_ASKED
+from mgehl.output.gap_error import UNSETTLED
 from mgehl.solver.gaps import gaps
 from mgehl.solver.heat import rise_of
 from mgehl.solver.shear import flows_out_whole, shear_of
@@ -142,7 +144,8 @@ def banded(friction, error, boundary_coefficient):
     share, own, band = error.solid_load_fraction, error.friction, None
     if share is not None and own is not None:
         band = max(boundary_coefficient * share, own)
-    return replace(friction, coefficient_band=band, is_the_grids=error.mean_nm is not None and band is None)
+    of_the_grid = band is None and error.how not in (NOT_ASKED.how, UNSETTLED)
+    return replace(friction, coefficient_band=band, is_the_grids=of_the_grid)
 
 
 def banded_in_time(friction, half_width):

@@ -31,7 +31,7 @@ COLUMNS = {
     "ranks": ("ranks", "d"),
     "converged": ("converged", yes),
     "load N": ("load_N", ".6g"),
-    "load ± N": ("load_band_N", ".2g"),
+    "load ± N": ("load_band_N", ".4g"),
     "largest pressure MPa": ("max_pressure_MPa", ".5g"),
     "central nm": ("central_film_nm", ".4f"),
     "minimum nm": ("minimum_film_nm", ".4f"),
@@ -40,21 +40,21 @@ COLUMNS = {
     "H_Moes central": ("moes_film.central", ".5f"),
     "H_Moes minimum": ("moes_film.minimum", ".5f"),
     "largest pressure GPa": ("max_pressure_GPa", ".5g"),
-    "largest pressure ± GPa": ("max_pressure_band_GPa", ".2g"),
+    "largest pressure ± GPa": ("max_pressure_band_GPa", ".4g"),
     "approach um": ("approach_um", ".6g"),
-    "approach ± um": ("dry_error.approach_um", ".2g"),
+    "approach ± um": ("dry_error.approach_um", ".4g"),
     "residual": ("residual", ".1e"),
     "load error": ("load_error", ".1e"),
     "load on contact": ("contact.load_fraction", ".4f"),
     "load on solids": ("mixed.solid_load_fraction", ".4f"),
     "contact/Hertz area": ("contact.area_fraction", ".4f"),
-    "contact/Hertz area ±": ("dry_error.area_fraction", ".2g"),
+    "contact/Hertz area ±": ("dry_error.area_fraction", ".4g"),
     "mean gap nm": ("mixed.mean_gap_nm", ".6g"),
     "loaded gap nm": ("mixed.loaded_gap_nm", ".6g"),
     "mean gap ± nm": ("mixed.error.mean_nm", ".4g"),
     "loaded gap ± nm": ("mixed.error.loaded_nm", ".4g"),
     "friction": ("friction.coefficient", ".4g"),
-    "friction ±": ("friction.coefficient_band", ".2g"),
+    "friction ±": ("friction.coefficient_band", ".4g"),
     "friction of film": ("friction.film_coefficient", ".4g"),
     "friction of solids": ("friction.solid_coefficient", ".4g"),
     "rolling friction": ("friction.rolling_coefficient", ".4g"),
@@ -73,7 +73,7 @@ COLUMNS = {
 SLIDING = "friction", "friction of film", "friction of solids"
 """Columns of bodies whose sliding is known: where it is not given their 0 is no answer."""
 
-UNIT = re.compile("( nm| GPa| N|)$")
+UNIT = re.compile("( nm| um| GPa| N|)$")
 """What stands behind the ± of a column of half-widths."""
 
 WIDTH = 120

@@ -7,7 +7,7 @@ import numpy as np
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, WALL
 from mgehl.output.film_error import no_band
 from mgehl.output.result import Result
-from mgehl.solver.mass import account
+from mgehl.solver.mass import account, beside_open_sides
 from mgehl.solver.verification import closed_face_flow, flux_imbalance
 
 ROUNDING = 1e-12
@@ -31,6 +31,9 @@ def summarise_wedge(problem, outcome, wall_s, versions):
     unit = 0.5 * bearing.speed * bearing.film_scale * bearing.y_scale * across
     wide = 1.0 if grid.mesh.is_line else grid.mesh.y[1] - grid.mesh.y[0]
     mass, carries = account(problem, state, evaluation, pad, unit), unit * wide * grid.max(state.H)
+    if not (grid.mesh.is_line or bearing.closed_sides):
+        beside = beside_open_sides(problem, evaluation, unit)
+        mass = replace(mass, enters=mass.enters + beside, leaves=mass.leaves + beside)
     flows = max(mass.enters, mass.leaves) > ROUNDING * carries  # nothing does behind walls all around
     return Result(
         converged=outcome.converged,

@@ -134,8 +134,8 @@ def heating_words(reduction, is_thinned):
 
 
 def thinning_words(result):
-    """The film that there would be if shear did not thin it, the minimum where the central one would hardly
-    be thicker."""
+    """The film that there would be if shear did not thin the oil, the minimum where the central one would
+    hardly be another."""
     friction, mixed = result.friction, result.mixed
     if not friction or friction.unthinned_film_nm is None:
         if friction and friction.thins:
@@ -148,7 +148,7 @@ def thinning_words(result):
     if mixed:
         films = {"mean gap": (mixed.mean_gap_nm, friction.unthinned_film_nm)}
     for name, (own, thick) in films.items():
-        if thick is not None and thick > (1.0 + HARDLY) * own:
+        if thick is not None and abs(thick - own) > HARDLY * own:
             yield f"shear thins the oil: without that the {name} would be {thick:.4g} nm"
             return
     yield "shear thins the oil, the film hardly"

@@ -114,9 +114,10 @@ def test_the_film_without_thinning_is_told_beside_the_thinned_one(surface):
     "unthinned, words",
     [
         ((13.0, 6.5), "shear thins the oil: without that the central film would be 13 nm"),
-        ((11.9, 6.5), "shear thins the oil: without that the minimum film would be 6.5 nm"),
-        ((11.9, 6.001), "shear thins the oil, the film hardly"),
-        ((11.9, None), "shear thins the oil, the film hardly"),
+        ((11.99, 6.5), "shear thins the oil: without that the minimum film would be 6.5 nm"),
+        ((11.99, 6.001), "shear thins the oil, the film hardly"),
+        ((11.99, None), "shear thins the oil, the film hardly"),
+        ((11.9, 6.5), "shear thins the oil: without that the central film would be 11.9 nm"),
         ((None, None), None),
     ],
 )

@@ -4,7 +4,14 @@ from types import SimpleNamespace
 import pytest
 from contacts import solved
 
-from mgehl.output.gap_error import SMALLEST, SPREAD, from_grids, share_half_width, why_no_band
+from mgehl.output.gap_error import (
+    SMALLEST,
+    SPREAD,
+    by_unseen_inlet,
+    from_grids,
+    share_half_width,
+    why_no_band,
+)
 from mgehl.solver.gaps import GridGap
 
 WAVY = {
@@ -54,6 +61,17 @@ def test_what_the_two_grids_do_not_share_is_the_grid_s():
     assert none.the_grids == [] and none.max_pressure_GPa is None
 
 
+def test_where_no_grid_sees_the_inlet_all_that_hangs_on_the_film_has_a_wider_band():
+    coarser = replace(grid(129), solid_load_apart=0.01)
+    seen = replace(from_grids((grid(257), coarser)), mean_nm=1.0)
+    unseen = by_unseen_inlet(seen, grid(257))
+    for name in ("mean_nm", "loaded_nm", "solid_load_fraction"):
+        assert getattr(unseen, name) == pytest.approx(3.0 * getattr(seen, name))
+    assert unseen.max_pressure_GPa == seen.max_pressure_GPa and "3 times as wide" in unseen.how
+    none = by_unseen_inlet(replace(seen, mean_nm=2.0), grid(257))
+    assert none.mean_nm is none.max_pressure_GPa is None and "less than half a cell" in none.how
+
+
 def test_where_the_coarser_grid_did_not_settle_there_is_none():
     error = from_grids((grid(257), grid(129, settled=False)))
     assert error.mean_nm is error.loaded_nm is None and "on 129 nodes" in error.how
@@ -84,9 +102,11 @@ THICK = {"motion": {"speed": 0.1}, "surface": {"amplitude": 3e-8}}
 """Ridges of 30 nm under a film of 60."""
 
 
-@pytest.mark.parametrize("more, part", [({}, 0.4), (THICK, 0.1)], ids=["in contact", "thick film"])
-def test_the_bands_hold_what_a_grid_four_times_as_fine_has(more, part):
-    coarse, fine = (solved(WAVY, more, {"grid": {"nodes": nodes}}).result for nodes in (65, 257))
+@pytest.mark.parametrize(
+    "more, nodes, part", [({}, 129, 0.2), (THICK, 65, 0.1)], ids=["in contact", "thick film"]
+)
+def test_the_bands_hold_what_finer_grids_have(more, nodes, part):
+    coarse, fine = (solved(WAVY, more, {"grid": {"nodes": each}}).result for each in (nodes, 257))
     assert coarse.converged and fine.converged
     for gap in ("mean", "loaded"):
         values = [getattr(each.mixed, f"{gap}_gap_nm") for each in (coarse, fine)]
