@@ -5,23 +5,26 @@
     config = mgehl.load("my.toml", {"grid.nodes": 129, "motion.speed": "0.5 m/s"})
     solution = mgehl.solve(config)
     print(solution)
-    solution.film.min(), solution.summary.converged
+    solution.summary.converged, solution.film.min()
     solution.plot("film"), solution.to_xarray(), solution.save("runs/my")
     slower = mgehl.solve(config.with_({"motion.speed": "0.4 m/s"}), start=solution)
     mgehl.read("runs/my")
     mgehl.sweep(config, {"motion.speed": "1e-3..1 m/s:10"}, "runs/speeds").mean_gap_nm.plot()
 
-The same under mpiexec, where every rank calls `solve`.
+Under mpiexec every rank calls `solve` and `sweep`; fields, pictures and files are rank 0's, and None on the
+others is no array.
 """
 
+import sys
 from collections.abc import Iterable, Mapping
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
 from warnings import warn
 
 from mgehl.config import Config, config_from_tables, not_given, read_tables
-from mgehl.errors import Stopped
+from mgehl.errors import ConfigError, Stopped
 from mgehl.petsc_options import leave_signals_alone
 
 if TYPE_CHECKING:
@@ -30,6 +33,9 @@ if TYPE_CHECKING:
 
     from mgehl.answer import Solution
 
+CONTACT = "contact", "lubricant", "body_1", "body_2"
+"""Sections of settings that tell of another contact than the paper's ball."""
+
 
 def load(
     path: str | PathLike[str] | None = None, settings: Mapping[str, object] | Iterable[str] = ()
@@ -37,12 +43,21 @@ def load(
     """Read a configuration (TOML, SI numbers or strings with units); default: the paper's ball.
 
     `settings` override keys of the file: {"grid.nodes": 129, ...}, {"grid": {"nodes": 129}}
-    or ["grid.nodes=129", ...]. What makes the contact and is not given in a file's configuration is
-    warned of: there the paper's values are taken.
+    or ["grid.nodes=129", ...]. A contact that no file gives is `Config().with_(settings)`: the paper's
+    ball has the paper's scheme, domain and start, too, which is warned of. What makes the contact and is
+    not given in a file is warned of as well: there the paper's values are taken.
     Raises `mgehl.ConfigError`, one line that names the key, the value and what is allowed.
     """
+    if path == "":
+        raise ConfigError('"": is no file')
     tables = read_tables(path, settings)
     config = config_from_tables(tables)
+    if path is None and any(str(name).startswith(CONTACT) for name in settings):
+        warn(
+            "no file: the paper's configuration, with its first-order scheme, domain and start, changed by "
+            "the settings; mgehl.Config().with_(settings) has the program's own",
+            stacklevel=2,
+        )
     if path is not None and (missing := not_given(config, tables)):
         warn(f"{path}: not given: {', '.join(missing.values())}", stacklevel=2)
     return config
@@ -78,7 +93,7 @@ def solve(
     `mgehl.ConfigError` where the values make no contact that can be solved, and `mgehl.UserError` where
     `start` is another kind of contact, or one in time between other heights.
     """
-    config = config if isinstance(config, Config) else load(config)
+    config = _config_of(config)
     leave_signals_alone()
     from mpi4py import MPI
 
@@ -94,8 +109,11 @@ def solve(
     from mgehl.stopping import StopOnCtrlC
 
     comm = MPI.COMM_WORLD if comm is None else comm
+    _let_no_rank_wait(comm)
     is_path = isinstance(start, str | PathLike)
-    begin = on_every_rank(comm, on_first_rank(comm, read_run, start)) if is_path else start
+    begin: Any = on_first_rank(comm, read_run, start) if is_path else start
+    if begin is None or hasattr(begin, "fields"):
+        begin = on_every_rank(comm, begin)
     case = enter(config, comm, begin if hasattr(begin, "config") else None)
     if comm.rank == 0:
         for words in implausible(case.config, case.contact):
@@ -131,7 +149,30 @@ def sweep(
     from mgehl.studies.points import axis_of, points_of
     from mgehl.studies.sweep import swept
 
-    config = config if isinstance(config, Config) else load(config)
+    config, comm = _config_of(config), comm or MPI.COMM_WORLD
+    _let_no_rank_wait(comm)
     axes = [axis_of(config, key, values) for key, values in over.items()]
-    swept(directory, comm or MPI.COMM_WORLD, axes, points_of(config, axes), Watch(), speak=False)
+    swept(directory, comm, axes, points_of(config, axes), Watch(), speak=False)
     return xarray.load_dataset(Path(directory) / "sweep.nc", engine="h5netcdf")
+
+
+def _config_of(config: Config | str | PathLike[str]) -> Config:
+    """A `Config`, or that of a file."""
+    if config is None:
+        raise ConfigError("config = None: must be a Config or a file")
+    return config if isinstance(config, Config) else load(config)
+
+
+def _let_no_rank_wait(comm: "MPI.Comm") -> None:
+    """Have an error that a script does not catch end all ranks: the others would wait for this one."""
+    if comm.size == 1 or sys.excepthook is not sys.__excepthook__:
+        return
+
+    def told_and_ended(
+        kind: type[BaseException], error: BaseException, where: TracebackType | None
+    ) -> None:
+        sys.__excepthook__(kind, error, where)
+        sys.stderr.flush()
+        comm.Abort(130 if issubclass(kind, KeyboardInterrupt) else 1)
+
+    sys.excepthook = told_and_ended

@@ -88,6 +88,8 @@ def _of_mapping(settings):
 
 def _read_setting(setting):
     """Name and value of one "section.key=value": TOML, a number that TOML does not know, or a string."""
+    if not isinstance(setting, str):
+        raise ConfigError(f'settings: {shown(setting)}: must be "section.key=value"')
     key, equals, text = setting.partition("=")
     section, dot, name = (part.strip() for part in key.partition("."))
     if not (equals and dot and section and name):

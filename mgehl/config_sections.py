@@ -41,9 +41,9 @@ class ContactSection:
 @dataclass(frozen=True)
 class MotionSection:
     # fmt: off
-    speed: float | str = number(5e-6, "entrainment speed u of the flow rho u h; in time a table FILE.csv "
-        "of s, m/s or FILE.py:FUNCTION", "m/s", 1e-12, 1e3, own=absolute_course,
-        instead="body_1.rotation and motion.ring_rotation take rpm")
+    speed: float | str = number(5e-6, "entrainment speed u of the flow rho u h, of a wedge the plate's "
+        "speed; in time a table FILE.csv of s, m/s or FILE.py:FUNCTION", "m/s", 1e-12, 1e3,
+        own=absolute_course, instead="body_1.rotation and motion.ring_rotation take rpm")
     angle: float | str = number(0.0, "direction in which both surfaces move, from +x towards +y; in time a "
         "table FILE.csv of s, deg or FILE.py:FUNCTION", "deg", -360.0, 360.0, own=absolute_course)
     slide_to_roll: float | None = number(None, "2 (u_1 - u_2)/(u_1 + u_2) of both surfaces' speeds; 2: "

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 from places import CONFIGS
-from processes import own_environment
+from processes import ended, own_environment
 from told import refusal
 
 import mgehl
@@ -173,3 +173,41 @@ def test_importing_does_not_wake_petsc():
     """PETSc takes the options of the command line, which are read after the import."""
     code = "import sys, mgehl; sys.exit('petsc4py.PETSc' in sys.modules or 'matplotlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 0
+
+
+def test_arrays_are_copies(film):
+    film.status[:] = 0
+    assert film.status.any() and film.heights is None
+    assert film in [film] and film != mgehl.Solution.of(film)
+
+
+def test_a_contact_without_a_file_has_the_papers_scheme_and_this_is_said():
+    with pytest.warns(UserWarning, match="with its first-order scheme"):
+        paper = mgehl.load(settings={"contact.load": 30.0})
+    own = mgehl.Config().with_({"contact.load": 30.0})
+    assert (paper.discretization.couette, own.discretization.couette) == ("1B", None)
+
+
+@pytest.mark.parametrize("call", [lambda: mgehl.load(""), lambda: mgehl.solve(None)], ids=["", "None"])
+def test_no_file_is_no_configuration(call):
+    refusal(call, error=mgehl.ConfigError)
+
+
+ON_TWO = """
+import mgehl
+from mpi4py import MPI
+config = mgehl.Config().with_({"grid.nodes": 65, "motion.speed": "1 m/s", "solver.error": False})
+film = mgehl.solve(config)
+again = mgehl.solve(config, start=film if MPI.COMM_WORLD.rank == 0 else None)
+assert again.summary.converged and (again.film is None) == (MPI.COMM_WORLD.rank == 1)
+if MPI.COMM_WORLD.rank == 1:
+    raise RuntimeError("a mistake of the script")
+mgehl.solve(config)
+"""
+
+
+def test_a_script_that_fails_on_one_rank_ends_on_all(tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(ON_TWO)
+    done = ended(["mpiexec", "-n", "2", sys.executable, str(script)], timeout=120)
+    assert done.returncode == 1 and "RuntimeError: a mistake of the script" in done.stderr

@@ -1,7 +1,8 @@
 """mgehl run: solve one contact
 
 Solve one contact and write its directory. A run that was stopped, or killed, goes on with --resume, on
-any number of ranks. SIGTERM, Ctrl-C and --time-limit save it first (exit status 143, 130 and 143).
+any number of ranks. SIGTERM, Ctrl-C and --time-limit save it first (exit status 143, 130 and 143);
+under mpiexec within the two seconds that Open MPI gives it.
 
 example: mpiexec -n 2 python -m mgehl run --set grid.nodes=65 --set motion.speed='1 m/s' --set
     solver.start=film --out runs/film -mgehl_ksp_monitor

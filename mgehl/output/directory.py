@@ -31,7 +31,8 @@ def make_directory(path, force=False):
     """Create a directory; with `force` one that exists will do. Raises OutputError."""
     path = Path(path)
     if path.is_dir() and not force:
-        raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
+        resume = f"go on with --resume {path}, " if (path / CHECKPOINT).is_dir() else ""
+        raise OutputError(f"{path} exists: {resume}add --force to replace it, or choose another with --out")
     if os.path.lexists(path) and not path.is_dir():
         raise OutputError(f"{path}: is no directory: choose another with --out")
     with writing(path):

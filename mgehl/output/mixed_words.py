@@ -20,9 +20,9 @@ def mixed_lines(mixed):
         f"{100 * mixed.contact_area_over_hertz:.2f} % of the Hertz area, in {patches}{largest}",
         *_carried_by_solids(mixed),
         *_mean_gaps(mixed),
-        f"film within the {mixed.hertz_region}: mean {_known(mixed.mean_film_nm)} nm, minimum "
-        f"{_known(mixed.minimum_film_nm)} nm, {_known(mixed.valley_film_nm)} nm in valleys deeper than Sq; "
-        f"torn on {100 * mixed.torn_share:.2f} % of it{filling_words(mixed)}",
+        f"film that is not torn, within the {mixed.hertz_region}: mean {_known(mixed.mean_film_nm)} nm, "
+        f"minimum {_known(mixed.minimum_film_nm)} nm, {_known(mixed.valley_film_nm)} nm in valleys "
+        f"deeper than Sq; torn on {100 * mixed.torn_share:.2f} % of it{filling_words(mixed)}",
     ]
 
 

@@ -57,7 +57,7 @@ class Fields:
         return None if whole["P"] is None else Fields(**whole)
 
 
-@dataclass
+@dataclass(eq=False)  # arrays are neither the same nor not
 class Solution:
     """A solved contact; `rows` is the history, a dictionary per cycle.
 

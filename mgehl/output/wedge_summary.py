@@ -69,7 +69,10 @@ def load_band(result, coarser, why_no_more=""):
     if not result.converged:
         return {"load_band_how": "the run has not converged"}
     if not coarser:
-        return {"load_band_how": f"the next coarser grid is too coarse: {why_no_more}"}
+        too_coarse = why_no_more.startswith("grid.nodes")
+        return {
+            "load_band_how": "there is no coarser grid" + (f": {why_no_more}" if not too_coarse else "")
+        }
     (nodes, load), *more = coarser
     if load is None:
         return {"load_band_how": f"on {nodes} nodes, the next coarser grid, there is no answer"}

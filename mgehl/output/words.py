@@ -51,6 +51,8 @@ def _load_in_N(result):
     band = result.load_band_N
     if band:
         return f"{with_band(result.load_N, band)} N"
+    if band is not None:
+        return f"{result.load_N:.4g} N"  # nothing on both grids
     return f"{result.load_N:.4g} N" + (f", no band: {result.load_band_how}" if result.converged else "")
 
 
