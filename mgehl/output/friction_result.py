@@ -57,6 +57,8 @@ class FrictionResult:
     """Whether forces and power are those of a metre: of a line contact."""
     coefficient_band: float | None = None
     """Half-width of its band: by the coarser grid, of rough bodies at the least by solids' load."""
+    rolling_band: float | None = None
+    """That of `rolling_coefficient`, by the coarser grid."""
     is_the_grids: bool = False
     """Whether the coarser grid has another coefficient, or load on solids, or a spike of pressure decides
     on it: then there is no band."""
@@ -139,7 +141,10 @@ def _temperatures(problem, state, rise):
 
 def banded(friction, error, boundary_coefficient):
     """A `FrictionResult` with the band that the grids of a `GapError` give it."""
-    if not (friction and friction.slide_to_roll):
+    if not friction:
+        return friction
+    friction = replace(friction, rolling_band=error.rolling)
+    if not friction.slide_to_roll:
         return friction
     share, own, band = error.solid_load_fraction, error.friction, None
     if share is not None and own is not None:
@@ -184,7 +189,8 @@ def friction_lines(friction, verbose):
     unit = "/m" if friction.per_metre else ""
     beyond = friction.rolling_beyond
     more = f" (and {beyond:.2g} beyond the domain, were it flooded)" if beyond else ""
-    rolling = f"rolling takes {friction.rolling_coefficient:.3g} of the load on each body{more}"
+    band = f" ± {friction.rolling_band:.2g}" if friction.rolling_band else ""
+    rolling = f"rolling takes {friction.rolling_coefficient:.3g}{band} of the load on each body{more}"
     if not friction.slide_to_roll:
         yield f"no sliding friction: motion.slide_to_roll is 0, or not given; {rolling}"
         return

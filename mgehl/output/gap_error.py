@@ -65,6 +65,8 @@ class GapError:
     solid_load_fraction: float | None = None
     friction: float | None = None
     """Of the coefficient; None also of bodies that do not slide."""
+    rolling: float | None = None
+    """Of what drags each body, over the load."""
 
     def is_the_grids(self, name):
         """Whether a number of `SHOWN` has no band though the mean gap has one; not of older results."""
@@ -142,10 +144,12 @@ def from_grids(grids):
         )
     pressure = finest.pressure_crest_GPa
     pressure += half_width(*on_both("max_pressure_GPa"), coarser.pressure_apart_GPa)
-    friction = None
-    if None not in on_both("friction"):
-        found = half_width(*on_both("friction"), coarser.friction_apart, True)
-        friction = unless_wider(found, WIDEST * abs(finest.friction))
+
+    def of_force(name, apart=0.0):
+        if None in on_both(name):
+            return None
+        return unless_wider(half_width(*on_both(name), apart, True), WIDEST * abs(getattr(finest, name)))
+
     return GapError(
         mean,
         unless_wider(loaded, WIDEST * finest.loaded_nm),
@@ -153,7 +157,8 @@ def from_grids(grids):
         max_pressure_GPa=unless_wider(pressure, WIDEST * finest.max_pressure_GPa),
         contact_load_share=share_half_width(*on_both("contact_load_share"), coarser.contact_load_apart),
         solid_load_fraction=share_half_width(*on_both("solid_load_fraction"), coarser.solid_load_apart),
-        friction=friction,
+        friction=of_force("friction", coarser.friction_apart),
+        rolling=of_force("rolling"),
     )
 
 
@@ -165,6 +170,7 @@ def by_unseen_inlet(error, finest):
         "mean_nm": WIDEST * finest.mean_nm,
         "loaded_nm": WIDEST * finest.loaded_nm,
         "friction": WIDEST * abs(finest.friction or 0.0),
+        "rolling": WIDEST * abs(finest.rolling or 0.0),
         "contact_load_share": WIDEST_SHARE,
         "solid_load_fraction": WIDEST_SHARE,
     }
