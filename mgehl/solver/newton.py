@@ -21,6 +21,7 @@ from mgehl.solver.judge import (
     judge,
     judge_system,
     judge_work,
+    since_lowered,
 )
 from mgehl.solver.layers import FluidInLayers
 from mgehl.solver.outcome import Cycle, Outcome
@@ -167,7 +168,7 @@ class Newton(PythonSnes):
         state, changes = position.state, position.changes
         c, dH0 = self._space.read(self._correction)
         asked = dP = self._multigrid.jacobian.pressures(c)
-        if self._settings.in_time:
+        if self._falls_as_oil_flows:
             dP = as_oil_flows(problem, self._evaluation, state, asked)
         where = problem, self._partition, self._evaluation, state
         length, H, dH = step_length(*where, dP, dH0, self._settings, self._in_turn)
@@ -180,6 +181,12 @@ class Newton(PythonSnes):
         state.H = problem.gap(state.P, state.H0) if H is None else H
         self._partition.follow_gap(state, changes, self._in_turn)
         position.step = replace(position.step, length=length)
+
+    @property
+    def _falls_as_oil_flows(self):
+        """Whether pressures fall as the viscosity lets them in this step."""
+        settings, in_vain = self._settings, since_lowered(self._position)
+        return settings.in_time or (settings.by_reduced_pressure and bool(in_vain))
 
     def _conclude(self, verdict):
         """The `Outcome`, and what SNES is told of it."""

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions
-from mgehl.discretization.fluid import ARITHMETIC, FOLDING
+from mgehl.discretization.fluid import ARITHMETIC, FOLDING, MONOTONE
 from mgehl.discretization.scheme import Scheme
 from mgehl.multigrid.cycle import CycleSettings
 from mgehl.solver.settings import PASSING_TOLERANCE, NewtonSettings
@@ -167,6 +167,7 @@ def _newton(settings, contact, peaks, squeezed):
         over_largest=rough,
         by_film=by_film,
         certain=max(asked.certain, CERTAIN if by_film else 0.0),
+        by_reduced_pressure=peaks != TOUCHING and scheme.face_mobility in MONOTONE,
     )
 
 

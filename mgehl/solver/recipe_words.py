@@ -89,7 +89,8 @@ def _steps(newton):
     film = f" and {LARGEST_CHANGE:g} of the film" if newton.by_film else ""
     change = f"{newton.max_pressure_step:.2g} of {scale}{film}"
     end = f"{newton.idle_steps} in vain" if newton.idle_steps < newton.max_steps else f"{newton.max_steps}"
-    return f"{kind}; one changes at most {change}; {end} end it"
+    falls = "; pressures fall as the oil flows after one in vain" if newton.by_reduced_pressure else ""
+    return f"{kind}; one changes at most {change}{falls}; {end} end it"
 
 
 def plain(recipe):
@@ -110,5 +111,8 @@ def plain(recipe):
     }
 
 
-NEWTON = "tolerance", "certain", "squeeze", "idle_steps", "max_pressure_step", "over_largest", "by_film"
+NEWTON = (
+    "tolerance", "certain", "squeeze", "idle_steps", "max_pressure_step", "over_largest", "by_film",
+    "by_reduced_pressure",
+)  # fmt: skip
 """Newton's rules that a recipe has."""

@@ -45,9 +45,12 @@ class NewtonSettings:
     """Whether the film's change bounds steps, too: where it closes as continuously as it opens."""
     squeeze: float = SolverSection.squeeze
     """Rate of implicit time steps per rms residual and cell (`solver.squeeze`); 0 for Newton's own."""
+    by_reduced_pressure: bool = False
+    """Whether pressures fall as the viscosity lets them (`step_length.as_oil_flows`) after a step that
+    gained nothing: of films alone. Where peaks touch it finds as many, and loses as many."""
     in_time: bool = False
     """Whether the state is one of many, near the one before: it is solved no further than is asked, and
-    pressures fall as the viscosity lets them."""
+    pressures fall so in every step."""
 
     def squeezed(self):
         """The same with a squeeze of `SQUEEZE` at the least."""

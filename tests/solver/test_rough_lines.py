@@ -94,3 +94,19 @@ class TestFromAThickFilm:
         assert not outcome.converged and problem.contact.speed == task.contact.speed
         assert f"after 2 steps{NOR} the dry contact without oil: " in outcome.reason
         assert f"after 2 steps{NOR} a thick film: a stage on the way" in outcome.reason
+
+
+def test_a_film_over_ridges_in_stiff_oil_is_found_in_a_few_steps():
+    """Pressures of 6 p_h fall to a tenth within a cell. Steps that are linear in P led to less than nothing
+    there, and 172 of them to an answer."""
+    tables = {
+        "contact": {"kind": "line", "radius_x": 0.01, "reduced_modulus": 226e9, "load_per_length": 1e5},
+        "lubricant": {"viscosity": 0.05, "pressure_viscosity": 20e-9},
+        "motion": {"speed": 0.5, "slide_to_roll": 2.0},
+        "friction": {"model": "limiting", "limiting_coefficient": 0.05},
+        "surface": {"kind": "waviness", "amplitude": 2e-7, "wavelength_x": 5e-5},
+        "grid": {"nodes": 1025, "x": [-4.0, 2.0]},
+        "solver": {"error": False, "max_steps": 40},
+    }
+    result = solved(tables).result
+    assert result.converged and result.contact.nodes == 0 and result.max_pressure_GPa > 3.0
