@@ -13,7 +13,7 @@ LONG_WAVES = merged(
     BALL,
     {"contact": {"load": 100.0, "boundary_film": 10e-9},
      "surface": {"rms": 20e-9, "hurst": 0.8, "shortest_wavelength": 90e-6, "seed": 1},
-     "grid": {"nodes": 65}, "motion": {"speed": 0.007}},
+     "grid": {"nodes": 65}, "motion": {"speed": 0.012}},
 )  # fmt: skip
 
 
