@@ -6,7 +6,8 @@ surfaces move at an angle to the lines, coarse Couette flows have the finest gri
 they would carry waves across the motion along differently.
 
 On rough surfaces GMRES remembers (`memory`). Where the film is thin besides, the mobility at one node says
-nothing of those around: it is averaged from grid to grid and held fixed. Rough lines are solved directly.
+nothing of those around: it is averaged from grid to grid and held fixed. Rough lines are solved directly,
+and in time short ones.
 """
 
 from dataclasses import dataclass, replace
@@ -40,6 +41,10 @@ DIRECT = 4097
 """Most nodes of a line between rough bodies that is solved directly: coarse grids do not see the peaks
 through which valleys are coupled, and a third of such contacts are not found by the cycle."""
 
+DIRECT_IN_TIME = 1025
+"""The same of any line in time, where a step takes 3 convolutions then, for 7 to 10. Longer lines take
+longer so."""
+
 MOST_ITERATIONS = 100
 """Of GMRES, which is not restarted: thin films on coarse grids take 100, restarted after 30 no end."""
 
@@ -58,8 +63,10 @@ class CycleSettings:
     """Damping of the line relaxation: with 0.7 and 0.9 up to a third more work."""
     couette: str = SolverSection.cycle_couette
     """Couette scheme of the cycle's operators; "same" is the one that is solved."""
+    direct: int = 0
+    """Most nodes of a line that is solved directly."""
     rough: bool = False
-    """Whether peaks are as small as coarse cells: corrections are remembered, lines solved directly."""
+    """Whether peaks are as small as coarse cells: corrections are remembered."""
     in_valleys: bool = False
     """Whether the film is thin besides: its own smoother, coarse mobilities and ends of coarse films."""
 
@@ -69,7 +76,7 @@ class MultigridSolver:
 
     def __init__(self, hierarchy, level, contact, scheme, settings=CycleSettings()):
         self._hierarchy, self._oblique = hierarchy, scheme.is_oblique
-        self._rough, self._in_valleys = settings.rough, settings.in_valleys
+        self._rough, self._in_valleys, self._direct = settings.rough, settings.in_valleys, settings.direct
         better = ASKEW if self._oblique else IN_THE_CYCLE
         self._scheme = _scheme_of_cycle(settings.couette, scheme, better)
         first = self._first_grid(hierarchy.grids, level)
@@ -95,10 +102,11 @@ class MultigridSolver:
         self._preconditioner = self.memory or cycle
 
     def _first_grid(self, grids, level):
-        """The coarsest grid of the cycle: of rough lines the finest one that may be solved directly."""
-        if not (self._rough and grids[level].mesh.is_line):
+        """The coarsest grid of the cycle: of lines the finest one that may be solved directly."""
+        if not grids[level].mesh.is_line:
             return 0
-        return max(number for number in range(level + 1) if number == 0 or grids[number].mesh.nx <= DIRECT)
+        most = self._direct
+        return max(number for number in range(level + 1) if number == 0 or grids[number].mesh.nx <= most)
 
     def _scheme_of(self, coarsenings):
         """The scheme of the cycle's operator on a grid so many times coarser than the finest."""

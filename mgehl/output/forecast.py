@@ -23,7 +23,7 @@ from mgehl.grid.grid import meshes_of, single_grid
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.time import scene_of
 from mgehl.model.deformation import HalfPlane, HalfSpace
-from mgehl.multigrid.cycle import DIRECT
+from mgehl.multigrid.cycle import DIRECT, DIRECT_IN_TIME
 from mgehl.output.resolution import CONTACT_OPENS, FILM_TOUCHES, inlet_cells
 from mgehl.output.surroundings import cores_allowed
 from mgehl.solver.from_config import scheme_from, set_up
@@ -142,6 +142,9 @@ OF_A_STEP = (12.0, 20.0, 45.0)
 """Convolutions of a step in time: of smooth bodies, of rough ones in a film, of those that touch. From
 65 to 257 nodes they took 1 to 16, 18 to 33 and 24 to 60."""
 
+OF_A_SHORT_LINE = 4.0
+"""The same of a line that is solved directly."""
+
 
 def bytes_of_nodes(effort, mesh, most=False):
     """Bytes for the nodes, on all ranks together, less what is saved where memory is short; those of most
@@ -161,7 +164,8 @@ def effort_of(config, contact, mesh):
     if not config.is_in_time:
         return steady
     steps = expected_steps(scene_of(config, contact), mesh, config.time.step)
-    each = OF_A_STEP[contact.is_rough + contact.is_mixed]
+    direct = mesh.is_line and mesh.nx <= DIRECT_IN_TIME
+    each = OF_A_SHORT_LINE if direct else OF_A_STEP[contact.is_rough + contact.is_mixed]
     measured = f"{steps} steps of some {each:g} after the steady state"
     return replace(steady, convolutions=steady.convolutions + each * steps, measured=measured)
 

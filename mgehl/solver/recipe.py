@@ -16,7 +16,7 @@ from math import inf
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions
 from mgehl.discretization.fluid import ARITHMETIC, FOLDING, MONOTONE
 from mgehl.discretization.scheme import Scheme
-from mgehl.multigrid.cycle import CycleSettings
+from mgehl.multigrid.cycle import DIRECT, DIRECT_IN_TIME, CycleSettings
 from mgehl.solver.settings import PASSING_TOLERANCE, NewtonSettings
 
 NONE, COVERED, NEAR, TOUCHING = "none", "covered", "near", "touching"
@@ -111,7 +111,9 @@ def recipe_of(settings, contact, begins=None):
         most_slower=MOST_SLOWER if law.closes_faces else inf,
         otherwise=_otherwise(settings, start, guess, touching),
         newton=_newton(settings, contact, peaks, squeezed=closed or touching or start == UNSEEN_FILM),
-        cycle=replace(settings.cycle, rough=rough, in_valleys=peaks in (NEAR, TOUCHING)),
+        cycle=replace(
+            settings.cycle, direct=DIRECT if rough else 0, rough=rough, in_valleys=peaks in (NEAR, TOUCHING)
+        ),
     )
 
 
@@ -122,7 +124,8 @@ def recipe_in_time(settings, contact):
     recipe = recipe_of(settings, contact, A_STATE)
     limits = {"max_work": 10**9, "max_steps": STEPS_IN_TIME, "idle_steps": STEPS_IN_TIME}
     newton = replace(recipe.newton, squeeze=0.0, in_time=True, certain=PASSING_TOLERANCE, **limits)
-    return replace(recipe, scheme=replace(recipe.scheme, motion=(0.0, 0.0)), newton=newton)
+    cycle = replace(recipe.cycle, direct=max(recipe.cycle.direct, DIRECT_IN_TIME))
+    return replace(recipe, scheme=replace(recipe.scheme, motion=(0.0, 0.0)), newton=newton, cycle=cycle)
 
 
 def _peaks(law, contact):

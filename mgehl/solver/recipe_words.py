@@ -3,7 +3,6 @@
 from dataclasses import asdict
 from math import isfinite
 
-from mgehl.multigrid.cycle import DIRECT
 from mgehl.multigrid.smoother_choice import smoother_of
 from mgehl.solver.recipe import (
     A_STATE,
@@ -77,8 +76,8 @@ def _slower(recipe):
 def _smoother(recipe, is_line):
     """That of the finest grid."""
     cycle = recipe.cycle
-    if is_line and cycle.rough:
-        return f"none, up to {DIRECT} nodes of a line are solved directly"
+    if is_line and cycle.direct:
+        return f"none, up to {cycle.direct} nodes of a line are solved directly"
     return smoother_of(is_line, in_valleys=cycle.in_valleys, finest=True).words
 
 
