@@ -5,8 +5,9 @@
     config = mgehl.load("my.toml", {"grid.nodes": 129, "motion.speed": "0.5 m/s"})
     solution = mgehl.solve(config)
     print(solution)
-    solution.summary.converged, solution.film.min()
-    solution.plot("film"), solution.to_xarray(), solution.save("runs/my")
+    solution.summary.converged
+    if solution.film is not None:  # on rank 0
+        solution.film.min(), solution.plot("film"), solution.to_xarray(), solution.save("runs/my")
     slower = mgehl.solve(config.with_({"motion.speed": "0.4 m/s"}), start=solution)
     mgehl.read("runs/my")
     mgehl.sweep(config, {"motion.speed": "1e-3..1 m/s:10"}, "runs/speeds").mean_gap_nm.plot()
@@ -50,6 +51,7 @@ def load(
     """
     if path == "":
         raise ConfigError('"": is no file')
+    settings = settings if isinstance(settings, str | Mapping) else list(settings)
     tables = read_tables(path, settings)
     config = config_from_tables(tables)
     if path is None and any(str(name).startswith(CONTACT) for name in settings):
@@ -93,10 +95,11 @@ def solve(
     `mgehl.ConfigError` where the values make no contact that can be solved, and `mgehl.UserError` where
     `start` is another kind of contact, or one in time between other heights.
     """
-    config = _config_of(config)
     leave_signals_alone()
     from mpi4py import MPI
 
+    _let_no_rank_wait(MPI.COMM_WORLD)
+    config = _config_of(config)
     from mgehl.answer import Solution
     from mgehl.kinds.plausible import implausible
     from mgehl.output.files import on_first_rank
@@ -109,16 +112,16 @@ def solve(
     from mgehl.stopping import StopOnCtrlC
 
     comm = MPI.COMM_WORLD if comm is None else comm
-    _let_no_rank_wait(comm)
-    is_path = isinstance(start, str | PathLike)
-    begin: Any = on_first_rank(comm, read_run, start) if is_path else start
-    if begin is None or hasattr(begin, "fields"):
+    begin: Any = start
+    if comm.bcast(isinstance(start, str | PathLike)):  # what rank 0 has decides
+        begin = on_first_rank(comm, read_run, start)
+    if comm.bcast(begin is None or hasattr(begin, "fields")):
         begin = on_every_rank(comm, begin)
     case = enter(config, comm, begin if hasattr(begin, "config") else None)
     if comm.rank == 0:
         for words in implausible(case.config, case.contact):
             warn(f"unusual: {words}", stacklevel=2)
-    if begin is not None:
+    if comm.bcast(begin is not None):
         on_first_rank(comm, check_start, begin, case)
     try:
         with StopOnCtrlC() as stop:
@@ -145,12 +148,12 @@ def sweep(
     import xarray
     from mpi4py import MPI
 
+    _let_no_rank_wait(MPI.COMM_WORLD)
     from mgehl.run import Watch
     from mgehl.studies.points import axis_of, points_of
     from mgehl.studies.sweep import swept
 
     config, comm = _config_of(config), comm or MPI.COMM_WORLD
-    _let_no_rank_wait(comm)
     axes = [axis_of(config, key, values) for key, values in over.items()]
     swept(directory, comm, axes, points_of(config, axes), Watch(), speak=False)
     return xarray.load_dataset(Path(directory) / "sweep.nc", engine="h5netcdf")
@@ -164,7 +167,8 @@ def _config_of(config: Config | str | PathLike[str]) -> Config:
 
 
 def _let_no_rank_wait(comm: "MPI.Comm") -> None:
-    """Have an error that a script does not catch end all ranks: the others would wait for this one."""
+    """Have an error that a script does not catch end all ranks: the others would wait for this one. Of
+    `sys.exit` nothing is known."""
     if comm.size == 1 or sys.excepthook is not sys.__excepthook__:
         return
 

@@ -204,7 +204,7 @@ class _LoadedSolve:
     def _compared(self, friction, result, loads, beside):
         """A `FrictionResult` with its band, and with the films that shear would not thin."""
         settings, of_contact = self._task.settings, self._task.contact.friction
-        friction = banded(friction, loads, of_contact.boundary_coefficient)
+        friction = banded(friction, loads, of_contact.boundary_coefficient, settings.error)
         if friction and of_contact.thins and settings.error:
             return with_unthinned(friction, result, beside.unthinned)
         return friction

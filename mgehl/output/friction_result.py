@@ -6,7 +6,6 @@ import numpy as np
 
 from mgehl.discretization.status import is_fluid
 from mgehl.model.flash import has_temperatures
-from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.gap_error import UNSETTLED
 from mgehl.solver.gaps import gaps
 from mgehl.solver.heat import rise_of
@@ -60,8 +59,8 @@ class FrictionResult:
     rolling_band: float | None = None
     """That of `rolling_coefficient`, by the coarser grid."""
     is_the_grids: bool = False
-    """Whether the coarser grid has another coefficient, or load on solids, or a spike of pressure decides
-    on it: then there is no band."""
+    """Whether there is no band though one was asked for: the coarser grid has another coefficient, or load
+    on solids, a spike of pressure decides on it, or no grid tells."""
     moment_1_Nm: float | None = None
     """Of the force on body 1 about its axis, positive as its surface moves along the motion; None: flat."""
     moment_2_Nm: float | None = None
@@ -139,8 +138,9 @@ def _temperatures(problem, state, rise):
     return Temperatures(*largest, by_pressure, grid.max(film))
 
 
-def banded(friction, error, boundary_coefficient):
-    """A `FrictionResult` with the band that the grids of a `GapError` give it."""
+def banded(friction, error, boundary_coefficient, asked=True):
+    """A `FrictionResult` with the band that the grids of a `GapError` give it, where bands were `asked`
+    for."""
     if not friction:
         return friction
     friction = replace(friction, rolling_band=error.rolling)
@@ -149,7 +149,7 @@ def banded(friction, error, boundary_coefficient):
     share, own, band = error.solid_load_fraction, error.friction, None
     if share is not None and own is not None:
         band = max(boundary_coefficient * share, own)
-    of_the_grid = band is None and error.how not in (NOT_ASKED.how, UNSETTLED)
+    of_the_grid = band is None and asked and error.how != UNSETTLED
     return replace(friction, coefficient_band=band, is_the_grids=of_the_grid)
 
 

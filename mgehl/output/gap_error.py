@@ -178,7 +178,8 @@ def by_unseen_inlet(error, finest):
     if wider["mean_nm"] > widest["mean_nm"]:
         return no_band("the inlet has less than half a cell: the grid decides what is film")
     kept = {name: half and unless_wider(half, widest[name]) for name, half in wider.items()}
-    how = f"{error.how}; {OF_UNSEEN:g} times as wide, for the inlet has less than half a cell"
+    wider_by = f"{OF_UNSEEN:g} times as wide but for the pressure"
+    how = f"{error.how}; {wider_by}: the inlet has less than half a cell"
     return replace(error, **kept, how=how)
 
 

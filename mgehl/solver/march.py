@@ -266,7 +266,7 @@ def _fading(P, standing, t, nothing):
     before, last = standing.P[-2:] - nothing
     steps = (t - standing.times[-1]) / (standing.times[-1] - standing.times[-2])
     fades = (0.0 < last) & (last < before) & (P - nothing < 0.5 * last)
-    P[fades] = nothing + last[fades] * (last[fades] / before[fades]) ** steps
+    P[fades] = np.maximum(P[fades], nothing + last[fades] * (last[fades] / before[fades]) ** steps)
     return P
 
 

@@ -79,13 +79,14 @@ KINDS = LUBRICATED, CAVITATED, CONTACT
 
 def beside_open_sides(problem, evaluation, unit):
     """What the half cells between the outermost nodes and the open sides that they lie on take in, in
-    m^3/s, and give off: along the side the surfaces carry oil, and what they carry less, or more, where it
-    ends passes through the side (collective)."""
+    m^3/s, and give off: along the side the surfaces carry oil, and what they carry more, or less, from cell
+    to cell passes through the side (collective)."""
     grid, mesh = problem.grid, problem.grid.mesh
     on_a_side = np.isin(np.arange(grid.first, grid.last), (0, mesh.ny - 1))
     carried = evaluation.flows[0][0].value[on_a_side]
-    first, last = (0.5 * mesh.dY * unit * grid.sum(carried[:, end].sum()) for end in (0, -1))
-    return max(abs(first), abs(last))
+    ends = np.maximum(carried[:, 0], 0.0) + np.maximum(-carried[:, -1], 0.0)
+    enters = ends.sum() + np.maximum(np.diff(carried), 0.0).sum()
+    return 0.5 * mesh.dY * unit * grid.sum(float(enters))
 
 
 def _hertz_ellipse(problem, evaluation):

@@ -142,8 +142,8 @@ class Newton(PythonSnes):
         if not self._settings.in_time:
             return self._linear_tolerance
         _, asked, _, _ = self._snes.getTolerances()
-        last = ENOUGH * asked / self._position.cycles[-1].residual
-        return max(self._linear_tolerance, min(last, ENOUGH))
+        left = ENOUGH * asked / max(self._position.cycles[-1].residual, asked)
+        return max(self._linear_tolerance, left)
 
     def _pose(self):
         """Pose the linear system: rows, 1/time step; return its right-hand side, (lines, nx)."""
@@ -186,7 +186,7 @@ class Newton(PythonSnes):
     def _falls_as_oil_flows(self):
         """Whether pressures fall as the viscosity lets them in this step."""
         settings, in_vain = self._settings, since_lowered(self._position)
-        return settings.in_time or (settings.by_reduced_pressure and bool(in_vain))
+        return settings.by_reduced_pressure and (settings.in_time or bool(in_vain))
 
     def _conclude(self, verdict):
         """The `Outcome`, and what SNES is told of it."""

@@ -123,6 +123,7 @@ def recipe_in_time(settings, contact):
     small as rounding, whose nodes would change for ever."""
     recipe = recipe_of(settings, contact, A_STATE)
     limits = {"max_work": 10**9, "max_steps": STEPS_IN_TIME, "idle_steps": STEPS_IN_TIME}
+    limits |= {"by_reduced_pressure": recipe.scheme.face_mobility in MONOTONE}
     newton = replace(recipe.newton, squeeze=0.0, in_time=True, certain=PASSING_TOLERANCE, **limits)
     cycle = replace(recipe.cycle, direct=max(recipe.cycle.direct, DIRECT_IN_TIME))
     return replace(recipe, scheme=replace(recipe.scheme, motion=(0.0, 0.0)), newton=newton, cycle=cycle)

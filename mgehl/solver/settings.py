@@ -46,11 +46,10 @@ class NewtonSettings:
     squeeze: float = SolverSection.squeeze
     """Rate of implicit time steps per rms residual and cell (`solver.squeeze`); 0 for Newton's own."""
     by_reduced_pressure: bool = False
-    """Whether pressures fall as the viscosity lets them (`step_length.as_oil_flows`) after a step that
-    gained nothing: of films alone. Where peaks touch it finds as many, and loses as many."""
+    """Whether pressures fall as the viscosity lets them (`step_length.as_oil_flows`): in time in every
+    step, else after one that gained nothing. Of peaks that touch that finds as many as it loses."""
     in_time: bool = False
-    """Whether the state is one of many, near the one before: it is solved no further than is asked, and
-    pressures fall so in every step."""
+    """Whether the state is one of many, near the one before: it is solved no further than is asked."""
 
     def squeezed(self):
         """The same with a squeeze of `SQUEEZE` at the least."""

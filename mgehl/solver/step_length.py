@@ -56,7 +56,7 @@ def as_oil_flows(problem, evaluation, state, dP):
     stiffens = -own(fluid.deps_dP) / np.maximum(own(fluid.eps), SMALLEST)
     stiffens *= 1.0 - share_of_the_gap(problem, evaluation)
     exponent = stiffens * dP
-    bent = (state.status == LUBRICATED) & (exponent > LINEAR)
+    bent = (state.status == LUBRICATED) & (dP > 0.0) & (exponent > LINEAR)
     falls = dP.copy()
     falls[bent] = np.log1p(exponent[bent]) / stiffens[bent]
     return falls

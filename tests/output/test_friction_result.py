@@ -9,7 +9,6 @@ import mgehl
 from mgehl.discretization.mesh import Mesh
 from mgehl.model.rheology import Friction
 from mgehl.output import friction_result as module
-from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.friction_result import banded, friction_lines, friction_result, with_moments
 from mgehl.output.gap_error import GapError, GridGap, no_band
 from mgehl.output.report.run_report import report
@@ -60,9 +59,6 @@ def test_a_law_of_another_unit_is_named(found, model, coefficient, said):
     assert sum("the law's stress is to be in Pa" in line for line in words) == said
 
 
-NO_BANDS = no_band(NOT_ASKED.how)
-
-
 def by_grids(solids, friction=1e-4):
     grids = (GridGap(129, 10.0, 9.0, 0.3, True, max_pressure_GPa=2.0),)
     return GapError(0.1, 0.1, "", grids, solid_load_fraction=solids, friction=friction)
@@ -77,7 +73,9 @@ def test_the_band_of_the_load_on_solids_is_friction_s(found):
 
 def test_where_there_is_no_band_at_all_friction_is_the_grid_s_too(found):
     """A soft ball whose inlet no grid saw: 44 % too much of it, and no word."""
-    unseen, not_asked = (banded(found(0.2), each, 0.1) for each in (no_band("the inlet has ..."), NO_BANDS))
+    unseen, not_asked = (
+        banded(found(0.2), no_band("the inlet ..."), 0.1, asked) for asked in (True, False)
+    )
     assert unseen.is_the_grids and not not_asked.is_the_grids
 
 

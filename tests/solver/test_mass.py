@@ -129,3 +129,15 @@ def test_a_parallel_pad_takes_in_what_the_plate_drags(sides):
     mass = contacts.solved(pad, {"grid": {"nodes": 65}}).result.mass
     assert mass.enters == pytest.approx(0.5 * 2.0 * 10e-6 * 10e-3, rel=1e-9)
     assert mass.leaves == pytest.approx(mass.enters, rel=1e-9)
+
+
+def test_what_passes_a_side_beyond_a_pocket_counts_too():
+    """A pocket over the whole width lets oil in and out through both sides."""
+    pad = {
+        "contact": {"kind": "wedge"},
+        "wedge": {"length": 20e-3, "inlet_film": 10e-6, "exit_film": 10e-6, "width": 10e-3,
+                  "pocket_depth": 1e-4, "pocket_from": 5e-3, "pocket_to": 15e-3, "pocket_width": 10e-3},
+        "motion": {"speed": 2.0},
+    }  # fmt: skip
+    coarse, fine = (contacts.solved(pad, {"grid": {"nodes": n}}).result.mass for n in (65, 129))
+    assert coarse.enters == pytest.approx(fine.enters, rel=2e-3)
