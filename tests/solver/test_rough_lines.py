@@ -10,8 +10,7 @@ from mpi4py import MPI
 from mgehl.config import config_from_tables
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import case_of, contact_from
-from mgehl.multigrid import cycle
-from mgehl.solver import beginning
+from mgehl.solver import beginning, recipe
 from mgehl.solver.beginning import COVERED, NOR, begin, begin_thick
 from mgehl.solver.from_config import set_up
 from mgehl.solver.gaps import gaps
@@ -42,7 +41,7 @@ def test_each_linear_system_is_solved_at_once():
 
 def test_above_the_largest_direct_solve_the_grids_of_the_cycle_lead_to_the_same(monkeypatch):
     at_once = solved(ROLLER).result
-    monkeypatch.setattr(cycle, "DIRECT", 65)
+    monkeypatch.setattr(recipe, "DIRECT", 65)
     solution = solved(ROLLER)
     result, rows = solution.result, solution.rows
     assert result.converged and max(row["linear_iterations"] for row in rows) > 1
