@@ -14,7 +14,7 @@ import numpy as np
 
 from mgehl.discretization.status import BOUNDARY, CONTACT
 from mgehl.discretization.storage import content
-from mgehl.discretization.transport import Shift
+from mgehl.discretization.transport import Shift, moved
 from mgehl.solver.carry import Carried, Reference, Transport
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.outcome import Outcome
@@ -150,7 +150,7 @@ class March:
         self._turn(t, path)
         leg, reference = self._leg(standing, step, way)
         problem.storage = leg.storage
-        newton = self._solved(self._guess(standing, t, halvings), leg)
+        newton = self._solved(self._guess(standing, t, way, halvings), leg)
         if not newton.converged:
             self._why = newton.reason
             return None
@@ -229,16 +229,27 @@ class March:
     def _sum(self, array, nodes):
         return self._problem.grid.sum(array[nodes].sum())
 
-    def _guess(self, standing, t, halvings):
-        """The state that a step begins with: without contact the last ones go on as a parabola in time."""
+    def _guess(self, standing, t, way, halvings):
+        """The state that a step begins with, in which the mean surface goes a way: without contact the last
+        ones go on."""
         problem, last = self._problem, standing.state
         P, H0 = last.P, last.H0
         if not halvings and not problem.grid.count(last.status == CONTACT):
             weights, tears_at = _continued(standing.times, t), problem.contact.tears_at
-            P = np.maximum(_fading(np.tensordot(weights, standing.P, 1), standing, t, tears_at), tears_at)
+            P = np.maximum(_fading(self._going_on(standing, t, way), standing, t, tears_at), tears_at)
             P, H0 = np.where(last.P > tears_at, P, tears_at), float(np.dot(weights, standing.H0))
         status = np.where(last.status == BOUNDARY, BOUNDARY, last.status)
         return problem.state(P, H0, status, last.p.copy(), last.filling.copy())
+
+    def _going_on(self, standing, t, way):
+        """Pressures after those before: what heights that move have changed goes along with the mean
+        surface, as waves of the film do; else a parabola in time."""
+        shift = Shift(*self._scene.cells(way, self._problem.grid.mesh))
+        if not self._scene.moves or shift.along_y or len(standing.times) < 2:
+            return np.tensordot(_continued(standing.times, t), standing.P, 1)
+        before, last = standing.P[-2:]
+        steps = (t - standing.times[-1]) / (standing.times[-1] - standing.times[-2])
+        return last + steps * moved(last - before, shift.along_x)
 
     def _error(self, standing, t, state):
         """What the pressures of a step are off a straight line in time, over themselves; rms."""
