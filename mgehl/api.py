@@ -12,8 +12,8 @@
     mgehl.read("runs/my")
     mgehl.sweep(config, {"motion.speed": "1e-3..1 m/s:10"}, "runs/speeds").mean_gap_nm.plot()
 
-Under mpiexec every rank calls `solve` and `sweep`; fields, pictures and files are rank 0's, and None on the
-others is no array.
+Under mpiexec every rank calls `solve` and `sweep`. Rank 0 has the fields, draws and saves; on the others
+fields are None.
 """
 
 import sys
@@ -167,8 +167,8 @@ def _config_of(config: Config | str | PathLike[str]) -> Config:
 
 
 def _let_no_rank_wait(comm: "MPI.Comm") -> None:
-    """Have an error that a script does not catch end all ranks: the others would wait for this one. Of
-    `sys.exit` nothing is known."""
+    """Have an error that a script does not catch end all ranks: the others would wait for this one. A
+    `sys.exit` on one rank is not noticed."""
     if comm.size == 1 or sys.excepthook is not sys.__excepthook__:
         return
 

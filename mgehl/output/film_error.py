@@ -46,6 +46,7 @@ def no_band(why):
     return FilmError(None, None, why)
 
 
+UNSETTLED = "the run has not settled"
 NOT_ASKED = no_band("not asked for (solver.error = false)")
 OF_AN_INSTANT = no_band("the film of an instant has none")
 
@@ -55,7 +56,7 @@ def why_no_band(result, contact):
     if contact.is_mixed:
         return "a single node of a rough surface says little; see the mean gap"
     if not result.settled:
-        return "the run has not settled"
+        return UNSETTLED
     if result.edge.wrong[0]:
         return result.edge.wrong[0]
     if result.contact.nodes:

@@ -6,7 +6,7 @@ import numpy as np
 
 from mgehl.discretization.status import is_fluid
 from mgehl.model.flash import has_temperatures
-from mgehl.output.gap_error import UNSETTLED
+from mgehl.output.film_error import UNSETTLED
 from mgehl.solver.gaps import gaps
 from mgehl.solver.heat import rise_of
 from mgehl.solver.shear import flows_out_whole, shear_of

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from mgehl.output.film_error import NOT_ASKED
+from mgehl.output.film_error import NOT_ASKED, UNSETTLED
 from mgehl.output.surface import GRIDS
 from mgehl.solver.gaps import NARROW, GridGap
 
@@ -35,8 +35,6 @@ balls on 65 and 129 nodes 10 were too narrow, by 1.2 to 2.8 times, of 84 on grid
 SMALLEST = 1e-4
 """Half-width at the least, over the gap or pressure, or in parts of the load."""
 
-
-UNSETTLED = "the run has not settled"
 
 SHOWN = {
     "loaded_nm": "the gap by pressure",
