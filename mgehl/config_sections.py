@@ -42,7 +42,7 @@ class ContactSection:
 class MotionSection:
     # fmt: off
     speed: float | str = number(5e-6, "entrainment speed u of the flow rho u h, of a wedge the plate's "
-        "speed; in time a table FILE.csv of s, m/s or FILE.py:FUNCTION", "m/s", 1e-12, 1e3,
+        "speed; in time 0, too, or a table FILE.csv of s, m/s or FILE.py:FUNCTION", "m/s", 0.0, 1e3,
         own=absolute_course, instead="body_1.rotation and motion.ring_rotation take rpm")
     angle: float | str = number(0.0, "direction in which both surfaces move, from +x towards +y; in time a "
         "table FILE.csv of s, deg or FILE.py:FUNCTION", "deg", -360.0, 360.0, own=absolute_course)

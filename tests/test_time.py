@@ -315,7 +315,9 @@ def test_the_end_is_told_by_the_load_of_the_end(course):
     assert result.contact.load_fraction == pytest.approx(last["load_on_contact"], abs=1e-6)
     assert result.contact.load_fraction > 0.5
     mixed = result.mixed
-    assert mixed.contact_load_share + mixed.film_load_share == pytest.approx(1.0, abs=1e-4)
+    within = mixed.contact_load_share + mixed.film_load_share
+    assert within + last["squeezed_beyond"] == pytest.approx(1.0, abs=1e-4)
+    assert last["squeezed_beyond"] > 0.05  # the load doubles in 76 us
     assert mixed.mean_gap_nm == pytest.approx(last["mean_gap_nm"], rel=1e-6)
     hertz = after.at_the_end
     assert hertz.x_scale == pytest.approx(2.0 ** (1.0 / 3.0) * after.contact.x_scale)
@@ -459,6 +461,23 @@ def test_films_go_on_as_they_were_on_any_grid(grid):
     assert film == pytest.approx(stood.summary.minimum_film_nm, rel=0.01)
 
 
+def test_surfaces_that_stand_still_squeeze_a_film_out(course):
+    """The same by a number and by a table; no formula, no inlet is told."""
+    flows = solved(motion__speed=0.3)
+    with pytest.warns(UserWarning, match="without --start-from RUN"):
+        stands = BALL | {"motion.speed": 0.0, "time.end": 2e-4}
+        after = mgehl.solve(mgehl.load(None, stands), start=flows)
+    by_table = BALL | {"motion.speed": course((0.0, 0.0), (1.0, 0.0)), "time.end": 2e-4}
+    table = mgehl.solve(mgehl.load(None, by_table), start=flows)
+    assert after.summary.converged and table.fields.H == pytest.approx(after.fields.H, rel=1e-9)
+    films = column(after, "minimum_film_nm")
+    assert films[-1] < 0.95 * films[0] and (np.diff(films) < 0.0).all()
+    assert (column(after, "squeezed_beyond") > 0.0).all()
+    result, words = after.summary, str(after)
+    assert result.formulas == {} and result.resolution.verdict == "standing"
+    assert "none: the surfaces stand still" in words and "passage" not in words
+
+
 class StopAfter:
     """Stops a run before its step of a number."""
 
@@ -544,7 +563,9 @@ def test_frames_have_the_heights_where_they_are_and_what_cavities_hold():
     [
         ({"motion.speed": [(0, 1), (1, 1)]}, "time.end is not given"),
         ({"motion.speed": [(0, 1), (1, 1)], "time.end": 2.0}, "must cover 0 to 2"),
-        ({"motion.speed": [(0, 0), (1, 0)], "time.end": 1.0}, "is 0 throughout"),
+        ({"motion.speed": 0.0}, "must be at least 1e-12"),
+        ({"motion.speed": 1e-15, "time.end": 1.0}, "must be at least 1e-12"),
+        ({"motion.speed": 0.0, "time.end": 1.0, "time.until": "settled"}, "0 throughout"),
         ({"motion.speed": [(0, -1), (1, 1)], "time.end": 1.0}, "begins below 0"),
         ({"motion.speed": [(0, 1), (1, -1)], "time.end": 1.0, "grid.x": (-3.0, 1.1)}, "must end beyond"),
         ({"contact.load": [(0, 1), (1, 0)], "time.end": 1.0}, "must stay above 0"),

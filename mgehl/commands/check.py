@@ -94,6 +94,10 @@ def _inlet(case):
     config, contact, mesh = case.config, case.contact, case.mesh
     scene = case.scene if config.is_in_time else None
     found = resolution.resolution(contact, mesh, scene)
+    if found.verdict == resolution.STANDS:
+        yield "inlet      none: the surfaces stand still throughout"
+        yield f"domain     {resolution.room_words(mesh)}"
+        return
     if words := resolution.inlet_speed_words(found):
         yield f"inlet      {words}{resolution.near_rest(found)}"
     grids = inlet_grids(case)

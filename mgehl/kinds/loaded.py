@@ -42,6 +42,8 @@ class LoadedKind(Kind):
 
     def check_keys(self, config):
         """Neither the laws of the lubricant nor the surfaces may contradict themselves."""
+        if not config.is_dry:
+            time.check_motion(config)
         time.check_courses(config)
         surface.check_keys(config)
         check_laws(config)
@@ -143,36 +145,27 @@ class LoadedKind(Kind):
 
     def lines(self, config, contact, mesh):
         """Groups, dry contact, films of formulas with what they assume, load and speed."""
-        hertz, first, own = contact.hertz, time.of_first_load(config), contact.unheated
+        stands, first = time.stands_still(config), time.of_first_load(config)
+        own = contact.unheated
         groups = "   ".join(f"{name} {value:.4g}" for name, value in asdict(own.groups).items())
-        compared = own.compared
-        unit, scale = ("um", 1e6) if max(compared.values()) >= LONG_FILM else ("nm", 1e9)
-        shown = "   ".join(
-            f"{name.replace('_', ' ')} {scale * film:.4g}" for name, film in compared.items()
-        )
+        moving = [f"groups     {groups}", f"regime     {own.regime} (Moes)"]
+        speed = 0.0 if stands else contact.speed
         return [
-            f"groups     {groups}",
-            f"regime     {own.regime} (Moes)",
-            f"Hertz      {self.hertz_words(hertz)}   {p_h_words(hertz)}{first}",
-            f"films, {unit}  {shown}{time.of_formulas(config)}",
-            *(f"           {words}" for words in assumptions(contact)),
-            *(
-                f"lambda     {words}"
-                for words in lambda_words(config, contact.expected_film, "a formula's")
-            ),
-            *(f"heat       {words}" for words in (*factor_words(contact), *heat_words(config, contact))),
-            *(f"thinned    {words}" for words in thinning_words(contact)),
+            *([] if stands else moving),
+            f"Hertz      {self.hertz_words(contact.hertz)}   {p_h_words(contact.hertz)}{first}",
+            *([] if stands else _films(config, contact)),
             f"load       {_over_time(config, self.load_key, contact.load)} {self.load_unit}   "
-            f"speed {_over_time(config, 'motion.speed', contact.speed)} m/s, the mean of both surfaces' "
+            f"speed {_over_time(config, 'motion.speed', speed)} m/s, the mean of both surfaces' "
             "speeds",
         ]
 
     def parts(self, solution, times="x"):
         """Speed, of a course the largest one, load, of a course the least and the largest, and nodes."""
         config, contact, nodes = solution.config, solution.contact, self.nodes(solution.mesh, times)
-        up_to = "up to " if isinstance(config.motion.speed, str) else ""
+        stands = time.stands_still(config)
+        up_to = "up to " if isinstance(config.motion.speed, str) and not stands else ""
         load = " to ".join(" ".join(self.load(each)) for each in time.extremes(config, contact))
-        return [up_to + speed_words(contact.speed), load, nodes]
+        return [up_to + speed_words(0.0 if stands else contact.speed), load, nodes]
 
     def heading(self, solution):
         """Kind, speed, load and nodes."""
@@ -209,6 +202,21 @@ class LoadedKind(Kind):
             "moes_L": (groups.L, "1", "material number L of Moes"),
         }
         return {name: number for name, number in found.items() if number is not None}
+
+
+def _films(config, contact):
+    """Films of formulas and what they assume, lambda, heat."""
+    compared = contact.unheated.compared
+    unit, scale = ("um", 1e6) if max(compared.values()) >= LONG_FILM else ("nm", 1e9)
+    shown = "   ".join(f"{name.replace('_', ' ')} {scale * film:.4g}" for name, film in compared.items())
+    yield f"films, {unit}  {shown}{time.of_formulas(config)}"
+    heads = {
+        "": assumptions(contact),
+        "lambda": lambda_words(config, contact.expected_film, "a formula's"),
+        "heat": (*factor_words(contact), *heat_words(config, contact)),
+        "thinned": thinning_words(contact),
+    }
+    yield from (f"{head:11}{words}" for head, lines in heads.items() for words in lines)
 
 
 def _over_time(config, key, value):

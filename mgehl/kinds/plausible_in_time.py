@@ -3,7 +3,15 @@
 import numpy as np
 
 from mgehl.kinds.heat import solids_from
-from mgehl.kinds.time import ONLY_IN_TIME, begins_at_rest, course, is_table, range_of, scene_of
+from mgehl.kinds.time import (
+    ONLY_IN_TIME,
+    begins_at_rest,
+    course,
+    is_table,
+    range_of,
+    scene_of,
+    stands_still,
+)
 
 LARGEST_TURN = 180.0
 """Degrees from one value of a course to the next that may be meant."""
@@ -31,7 +39,13 @@ def implausible_in_time(config, contact):
 
 
 def _parts_from_rest(config):
-    """A start from rest of bodies without layers."""
+    """A start from rest: of surfaces that stay there, or of bodies without layers."""
+    if stands_still(config):
+        yield (
+            "motion.speed is 0 throughout: without --start-from RUN, whose film is squeezed, the run "
+            "begins with the dry contact in a bath of oil"
+        )
+        return
     if config.contact.boundary_film or not begins_at_rest(config):
         return
     yield (

@@ -44,6 +44,12 @@ ONLY_IN_TIME = {
 }  # fmt: skip
 """Keys that may be a course of time, and their units."""
 
+SLOWEST = 1e-12
+"""m/s that surfaces of a steady film have at the least."""
+
+UNIT_OF_REST = 1e-3
+"""Speed in m/s in whose units a run is solved throughout which surfaces stand still."""
+
 NEEDED = {"solver.method": "newton-mg", "discretization.contact_model": "lcic"}
 """What a run in time is made for alone."""
 
@@ -127,16 +133,34 @@ def of_formulas(config):
 def reference(config, key):
     """A number for the value of a key that may be a course: its largest size until time.end.
 
-    Of the angle the first one; of the load, too, if there is any.
+    Of the angle the first one; of the load, too, if there is any. Of surfaces that stand still throughout
+    `UNIT_OF_REST`: lengths and times are in units of a motion.
     """
-    value = config.value(key)
+    value, (least, most) = config.value(key), range_of(config, key)
+    if key == "motion.speed":
+        return max(abs(least), abs(most)) or UNIT_OF_REST
     if not isinstance(value, str):
         return value
-    least, most = range_of(config, key)
-    if key == "motion.speed":
-        return max(abs(least), abs(most))
     first = course(key, value).value(0.0)
     return first if first > 0.0 or key == "motion.angle" else most
+
+
+def stands_still(config):
+    """Whether the surfaces do throughout a run in time: what flows is squeezed."""
+    is_driven = config.moes.M is None and config.is_in_time
+    return is_driven and not any(range_of(config, "motion.speed"))
+
+
+def check_motion(config):
+    """Raise ConfigError where a steady film has no motion."""
+    speed = config.motion.speed
+    if isinstance(speed, str) or config.moes.M is not None or speed >= SLOWEST:
+        return
+    if config.time.end is None or speed > 0.0:
+        raise ConfigError(
+            f"motion.speed = {speed:g}: must be at least {SLOWEST:g}; bodies under a load may stand still "
+            'in time (time.end), or where discretization.contact_model = "dry"'
+        )
 
 
 def check_courses(config):
@@ -148,6 +172,8 @@ def check_courses(config):
             raise ConfigError(f"{key} = {value!r}: {wrong}")
         if config.time.until == "settled" and len(set(range_of(config, key))) > 1:
             raise ConfigError(f'time.until = "settled": must be "end" where {key} changes with time')
+    if config.time.until == "settled" and stands_still(config):
+        raise ConfigError('time.until = "settled": must be "end" where motion.speed is 0 throughout')
     if end is None:
         if config.time.until == "settled":
             raise ConfigError('time.until = "settled": means nothing without time.end')
@@ -175,8 +201,6 @@ def _wrong_with(key, value, end):
         )
     if key != "motion.speed":
         return None if least > 0.0 else f"falls to {least:g}; must stay above 0"
-    if least == most == 0.0:
-        return "is 0 throughout; 1e-6 m/s is as good as rest, and a dry contact needs no time"
     return "begins below 0; turn motion.angle by 180 degrees" if found.value(0.0) < 0.0 else None
 
 

@@ -8,6 +8,7 @@ from mgehl.kinds.choice import Choice, given, value_of, word_of
 from mgehl.kinds.kind import Effort, Kind, kept_together
 from mgehl.kinds.loaded_checks import check_own_laws_up_to
 from mgehl.kinds.lubricant import check_laws, lubricant_from
+from mgehl.kinds.time import check_motion
 from mgehl.kinds.wedge_checks import STEEPEST, cell_of, check_on_grid, check_pad
 from mgehl.model.wedge import PILLARS, Pocket, WedgeBearing
 
@@ -131,6 +132,7 @@ class WedgeKind(Kind):
         if config.wedge.pressure_laws:
             check_laws(config)
         check_pad(config.wedge)
+        check_motion(config)
 
     def contact(self, config):
         """A `WedgeBearing`: x of a pad that is described by its films goes with the motion."""

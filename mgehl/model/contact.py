@@ -160,6 +160,12 @@ class LoadedContact(OnBodies, Inlet, InletHeat):
         within = 1.0 - there.share_beyond(*self.ends(mesh, sense))
         return there.load / self.load * self.load_integral * within
 
+    def squeezed_beyond(self, mesh, film):
+        """The load that oil which is squeezed out beyond the domain of a mesh carries, and what its sides
+        take away within, in N, of a line contact in N/m, over the speed in m/s at which the bodies
+        approach; with a film in the middle in m."""
+        raise NotImplementedError
+
     def drag_beyond(self, mesh, downstream=False):
         """What rolling takes from each body beyond the domain of a mesh, in N, of a line contact in N/m.
         Upstream, and `downstream` where no film tears."""

@@ -1,5 +1,7 @@
 """The load that a film carries beyond its domain: a tenth of it and more where a light load floats on oil.
 
+Bodies that approach each other squeeze oil out there, too, as surfaces that move drag it in.
+
 Far outside the bodies are rigid, and the pressure of Kapitza (1955) carries a load beyond a distance that
 falls only as 1 over it: no grid resolves a domain that holds it all. The sides of the domain, where the
 pressure is zero, lower the pressure within, too. Both follow from Reynolds' equation of a rigid gap h = h_0
@@ -8,7 +10,7 @@ pressure is zero, lower the pressure within, too. Both follow from Reynolds' equ
 
 from functools import lru_cache
 from itertools import pairwise
-from math import ceil, pi, sqrt
+from math import ceil, floor, log10, pi, sqrt
 
 import numpy as np
 from scipy.sparse import coo_matrix, diags
@@ -35,6 +37,9 @@ FAR = 100.0
 FIRST_TORN = 0.4
 """Where the film is first thought to tear: distance downstream over that beside (a ball's: a third)."""
 
+FILMS_A_DECADE = 10
+"""Films for which the load that is squeezed beyond a domain is known."""
+
 SETTLING = 50
 """Most changes of where the film is torn; two to eight are usual."""
 
@@ -46,9 +51,7 @@ def missing_share(contact, x, y):
     """Part of a contact's load that is missing in a domain, its ends in m."""
     film, radii = _rigid_film(contact), (contact.radius_x, contact.radius_y)
     lengths = [sqrt(2.0 * radius * film) for radius in radii]
-    ends = [
-        tuple(round(end / length, 6) for end in pair) for pair, length in zip((x, y), lengths, strict=True)
-    ]
+    ends = [_rounded(pair, length) for pair, length in zip((x, y), lengths, strict=True)]
     pressure = 12.0 * contact.lubricant.viscosity * contact.speed * lengths[0] / film**2
     missing = missing_load(*ends, lengths[0] / lengths[1], contact.motion, contact.held / pressure)
     share = missing * pressure * lengths[0] * lengths[1] / contact.load
@@ -65,12 +68,37 @@ def _rigid_film(contact):
 
 @lru_cache(maxsize=64)
 def missing_load(x, y, ratio, motion, around=0.0):
-    """The load missing between ends x and y in units of sqrt(2 R h_0), of a motion in these parts. In units
-    of 12 eta u sqrt(2 R_x h_0)/h_0^2, that of the pressure `around`, times both lengths; their `ratio` is
-    that along x to y."""
+    """The load missing between ends x and y in units of sqrt(2 R h_0), of a motion in these parts, or
+    without one of an approach at a speed V. In units of 12 eta u sqrt(2 R_x h_0)/h_0^2, that of the
+    pressure `around`, or of 24 eta V R_x/h_0^2, times both lengths; their `ratio` is that along x to y."""
     coarse, fine = (_missing_on(step, x, y, ratio, motion, around) for step in STEPS)
     limit = fine + (fine - coarse) / ((STEPS[0] / STEPS[1]) ** 2 - 1.0)
-    return limit / (1.0 - 1.0 / FAR)
+    falls = 1 if motion else 2  # the power of the distance with which the load beyond it does
+    return limit / (1.0 - FAR**-falls)
+
+
+def missing_by_squeeze(contact, x, y, film):
+    """The same of bodies that approach each other, in N over their speed in m/s, where the film in the
+    middle is so thick, in m. It hardly depends on that film: both that lie around it, of `FILMS_A_DECADE`,
+    are looked up."""
+    place = FILMS_A_DECADE * log10(film)
+    below, part = floor(place), place - floor(place)
+    at = (10.0 ** (each / FILMS_A_DECADE) for each in (below, below + 1))
+    thin, thick = (_by_squeeze(contact, x, y, each) for each in at)
+    return (1.0 - part) * thin + part * thick
+
+
+def _by_squeeze(contact, x, y, film):
+    """The same of a film that is looked up."""
+    lengths = [sqrt(2.0 * radius * film) for radius in (contact.radius_x, contact.radius_y)]
+    pressure = 24.0 * contact.lubricant.viscosity * contact.radius_x / film**2
+    ends = (_rounded(pair, length) for pair, length in zip((x, y), lengths, strict=True))
+    return missing_load(*ends, lengths[0] / lengths[1], None) * pressure * lengths[0] * lengths[1]
+
+
+def _rounded(ends, length):
+    """Two ends in units of a length, the same for what differs by rounding."""
+    return tuple(round(end / length, 6) for end in ends)
 
 
 def _missing_on(step, x, y, ratio, motion, around):
@@ -93,9 +121,9 @@ def _nodes(ends, step):
 
 
 class _Reynolds:
-    """Finite volumes of a rigid gap h = 1 + x^2 + y^2, whose film tears. Between two nodes h
-    changes a hundredfold, so a face has the flow of the line between them, by which the pressure of a flow
-    q falls by q int h^-3 - int h^-2."""
+    """Finite volumes of a rigid gap h = 1 + x^2 + y^2, whose film tears; without a motion it is squeezed,
+    and does not. Between two nodes h changes a hundredfold, so a face has the flow of the line between
+    them, by which the pressure of a flow q falls by q int h^-3 - int h^-2."""
 
     def __init__(self, X, Y, ratio, motion):
         cells_x, cells_y = _cells(X), _cells(Y)
@@ -103,17 +131,19 @@ class _Reynolds:
         number = np.arange(self._area.size).reshape(Y.size, X.size)
         eased_x, carried_x = _faces(X, Y)
         eased_y, carried_y = (each.T for each in _faces(Y, X))
+        c, s = motion or (0.0, 0.0)
         sides = (
-            (number[:, :-1], number[:, 1:], eased_x * cells_y[:, None], carried_x * motion[0]),
-            (number[:-1], number[1:], eased_y * cells_x * ratio**2, carried_y * motion[1] / ratio),
+            (number[:, :-1], number[:, 1:], eased_x * cells_y[:, None], carried_x * c),
+            (number[:-1], number[1:], eased_y * cells_x * ratio**2, carried_y * s / ratio),
         )
         w, e, eased, carried = (np.concatenate([side[k].ravel() for side in sides]) for k in range(4))
         entries = np.concatenate((-eased, -eased, eased, eased))
         matrix = coo_matrix((entries, (np.concatenate((w, e, w, e)), np.concatenate((e, w, w, e))))).tocsr()
         flow = eased * carried
         gained = np.bincount(e, flow, self._area.size) - np.bincount(w, flow, self._area.size)
+        gained = gained if motion else self._area
         self._matrix, self._gained = diags(1.0 / matrix.diagonal()) @ matrix, gained / matrix.diagonal()
-        along, across = (a * X + b * Y[:, None] for a, b in (motion, (-motion[1], motion[0])))
+        along, across = (a * X + b * Y[:, None] for a, b in ((c, s), (-s, c)))
         self._film = (along < FIRST_TORN * np.hypot(1.0, across)).ravel()
 
     def load(self, inside, around):

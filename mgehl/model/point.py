@@ -9,7 +9,7 @@ from mgehl.model.coating import Coating
 from mgehl.model.contact import Groups, LoadedContact
 from mgehl.model.deformation import HalfSpace, LayeredHalfSpace
 from mgehl.model.drag import point_drag_beyond, point_shear_beyond
-from mgehl.model.far_field import missing_share
+from mgehl.model.far_field import missing_by_squeeze, missing_share
 from mgehl.model.flash import Solid
 from mgehl.model.frame import Frame, SurfaceInFrame, direction
 from mgehl.model.hertz import hertz_contact, hertz_gap
@@ -174,6 +174,10 @@ class PointContact(LoadedContact):
         """As of any contact."""
         counted = self.counted_beyond
         return counted * missing_share(self, x, y) if counted else 0.0
+
+    def squeezed_beyond(self, mesh, film):
+        """By a film between paraboloids."""
+        return 0.0 if self.load_beyond is False else missing_by_squeeze(self, *self.ends(mesh), film)
 
     def drag_beyond(self, mesh, downstream=False):
         """By the film between the bodies as they are pressed, as far as they are paraboloids."""

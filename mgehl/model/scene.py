@@ -249,6 +249,11 @@ class Scene:
         return min(speeds) < AT_REST * self.contact.speed
 
     @property
+    def stands(self):
+        """Whether the surfaces stand still throughout."""
+        return not any(self._speeds[1])
+
+    @property
     def slowest(self):
         """Time of the slowest motion: where the speed turns or stays, of equal ones the heaviest load.
 

@@ -51,10 +51,10 @@ class CoarseSolve:
         with warnings.catch_warnings():
             # Of a singular matrix: the iteration that made it ends by itself.
             warnings.simplefilter("ignore", LinAlgWarning)
-            masks = self._given.ravel(), self._moves.ravel()
-            weight = self._jacobian.load_weight
+            masks, jacobian = (self._given.ravel(), self._moves.ravel()), self._jacobian
+            load = jacobian.load_weight, jacobian.load_scale * jacobian.resistance
             self._invert = DenseInverse(
-                self._A, self._B, self._K, weight, *masks, self._room, self._precisions
+                self._A, self._B, self._K, load, *masks, self._room, self._precisions
             )
 
     @event(COARSE)
@@ -83,14 +83,15 @@ class DenseInverse:
     """LU of A + B K with its border, A and B sparse and K dense.
 
     It is that of the nodes whose pressure is not `given`, (nodes,) bool: half of them in contact at low
-    speed. It stands in `room(precision)`, (nodes + 1)^2 numbers. Factors in single precision are refined
-    once by what they leave in doubles: without that domains that cut the contact are lost.
+    speed. The row of the `load` has one weight for P, and takes another times H0 away. The inverse stands
+    in `room(precision)`, (nodes + 1)^2 numbers. Factors in single precision are refined once by what they
+    leave in doubles: without that domains that cut the contact are lost.
     """
 
-    def __init__(self, A, B, K, load_weight, given, moves, room, precisions=OF_A_PLANE):
+    def __init__(self, A, B, K, load, given, moves, room, precisions=OF_A_PLANE):
         self._given, self._free = given, np.flatnonzero(~given)
         self._of_given, self._moves = A.diagonal()[given], np.where(given, 1.0, moves)
-        self._A, self._B, self._K, self._load_weight = A[self._free], B[self._free], K, load_weight
+        self._A, self._B, self._K, self._load = A[self._free], B[self._free], K, load
         for self._precision in precisions:
             self._lu = self._factored(room(self._precision))
             if self._precision is precisions[-1] or self._gives_back():
@@ -101,7 +102,7 @@ class DenseInverse:
         size = len(self._free) + 1
         matrix = room[: size * size].reshape(size, size)
         stencils = [(each.indptr, each.indices, each.data) for each in (self._A, self._B)]
-        fill_bordered(matrix, self._free, self._moves, *stencils, self._K, self._load_weight)
+        fill_bordered(matrix, self._free, self._moves, *stencils, self._K, *self._load)
         # LAPACK counts along columns: to it this is the transpose, which it factors in its place.
         return lu_factor(matrix.T, overwrite_a=True, check_finite=False)
 
@@ -129,11 +130,12 @@ class DenseInverse:
         P, H0 = solution[:-1], solution[-1]
         moving = self._moves * P
         missing = whole[self._free] - self._A @ P - self._B @ (self._K @ moving + H0)
-        return np.append(missing, whole[-1] - self._load_weight * moving.sum())
+        weight, resistance = self._load
+        return np.append(missing, whole[-1] - weight * moving.sum() + resistance * H0)
 
 
 @compiled()
-def fill_bordered(matrix, free, moves, A, B, K, load_weight):
+def fill_bordered(matrix, free, moves, A, B, K, load_weight, resistance):
     """Fill the `matrix` of A + B K for the `free` nodes, with its border. A and B have their rows: (where
     each begins, columns, values). `moves` is 1, and 0 where an unknown is no pressure."""
     count, place = len(free), np.full(len(K), -1)
@@ -151,7 +153,7 @@ def fill_bordered(matrix, free, moves, A, B, K, load_weight):
             if place[A[1][entry]] >= 0:
                 row[place[A[1][entry]]] += A[2][entry]
     matrix[count, :count] = load_weight * moves[free]
-    matrix[count, count] = 0.0
+    matrix[count, count] = -resistance
 
 
 def dense_influence(mesh, kernel):

@@ -150,12 +150,15 @@ class MultigridSolver:
         """Space of the finest grid's vectors."""
         return self.jacobian.space
 
-    def linearise(self, evaluation, rows, rate=0.0):
+    def linearise(self, evaluation, rows, rate=0.0, resistance=0.0):
         """Linearise on every grid about the finest grid's evaluated state, with its kinds of `rows`.
 
         `rate` is 1/time step of an implicit step, or one for each node, (lines, nx); zero for the steady
-        equations. The evaluation forgets its faces and, where memory is short, the fluid.
+        equations. The load answers to H0 by itself with a `resistance`. The evaluation forgets its faces
+        and, where memory is short, the fluid.
         """
+        for jacobian in (*self.jacobians, self.jacobian):
+            jacobian.resistance = resistance
         self._linearise_finest(evaluation, rows, rate)
         here = _About.finest(evaluation, rows, rate)
         for level in range(len(self.jacobians) - 2, -1, -1):

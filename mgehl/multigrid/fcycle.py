@@ -72,7 +72,7 @@ class FCycle:
             return e, dH, dH0
         dH = dH.copy()  # the next deflection on this grid overwrites it
         rest = r - jacobian.product(e, dH, jacobian.space.border_in_team(dH0))
-        more, more_H0 = self._corrections(level, rest, load - jacobian.load_of(e), again=False)
+        more, more_H0 = self._corrections(level, rest, load - jacobian.load_of(e, dH0), again=False)
         more *= SECOND
         e += more
         dH += jacobian.deflection(more)

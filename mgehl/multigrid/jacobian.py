@@ -1,4 +1,4 @@
-"""The bordered Jacobian on one grid, [ A + B K, B 1; s^T, 0 ] with s = load weight x dX dY.
+"""The bordered Jacobian on one grid, [ A + B K, B 1; s^T, -r ]; s = load weight x dX dY, r is a resistance.
 
 K is the full convolution, never truncated or assembled. A bordered vector holds the rank's lines of P and,
 on the last rank, one entry more for H0 (or for the load row).
@@ -113,6 +113,8 @@ class Jacobian:
         """Where a content is unknown in it, (lines, nx); None: nowhere."""
         self.under_contact = None
         """The fluid's pressure there, eliminated; None where there is no such unknown."""
+        self.resistance = 0.0
+        """What the load within the domain answers to H0 by itself: oil is squeezed out beyond it."""
         self.witness = None
         """Called with (dP, dH, dH0) of every product, dH the deflection by dP."""
         self._dP = np.zeros(grid.ghosted_shape)
@@ -158,15 +160,17 @@ class Jacobian:
     def mult(self, _mat, x, y):
         """y = J x; one convolution."""
         dP, dH0 = self.space.parts_in_team(x.getArray(readonly=True))
-        load = self.load_of(dP)
+        load = self.load_of(dP, dH0)
         dH = self.deflection(self.pressures(dP))
         if self.witness:
             self.witness(dP, dH, dH0)
         self.space.write(y, self.product(dP, dH, dH0), load)
 
-    def load_of(self, dP):
-        """s^T dP: what a correction of P, (lines, nx), adds to the load; known to ranks with lines only."""
-        return self.load_weight * self.grid.sum_of_team(self.pressures(dP).sum())
+    def load_of(self, dP, dH0):
+        """s^T dP - r dH0: what corrections of P, (lines, nx), and of H0 add to the load's row; known to
+        ranks with lines only."""
+        carried = self.load_weight * self.grid.sum_of_team(self.pressures(dP).sum())
+        return carried - self.load_scale * self.resistance * dH0
 
     def product(self, dP, dH, dH0):
         """A dP + B (dH + dH0), (lines, nx), of a known deflection `dH`; the next call overwrites it."""

@@ -98,7 +98,7 @@ class Memory:
         images = np.zeros_like(known.values)
         for value, dH, image in zip(known.values, known.deflections, images, strict=True):
             dP, dH0 = space.parts_in_team(value)
-            load = jacobian.load_of(dP)
+            load = jacobian.load_of(dP, dH0)
             product = jacobian.product(dP, dH.reshape(jacobian.grid.shape), dH0)
             space.fill(image, np.where(jacobian.given, 0.0, product), load)
             dP[jacobian.given] = 0.0

@@ -29,12 +29,16 @@ STARVED_FROM = 1.0
 SUFFICIENT, STARVED, UNKNOWN = "sufficient", "starved", "unknown"
 """Verdicts; the last of runs that older versions made."""
 
+STANDS = "standing"
+"""Verdict on an inlet and a domain of surfaces that stand still: no formula knows their film."""
+
 
 @dataclass(frozen=True)
 class Resolution:
     """Cells in the inlet zone that builds the film, and what follows from their number."""
 
     inlet_cells: float
+    """nan where the surfaces stand still throughout."""
     verdict: str
     domain: str = UNKNOWN
     """Whether the domain is "sufficient" for the film, or the film "starved" by it."""
@@ -84,16 +88,16 @@ def resolution(contact, mesh, scene=None, film=None):
     Of a `Scene` the contact is that at a time of 0, the inlet that of the slowest motion, and the domain is
     judged at the instant that it takes most from.
     """
+    if scene is not None and scene.stands:
+        return _standing(contact, mesh)
     by_formula = film is None or scene is not None
     cells = inlet_cells(contact, mesh, scene) if by_formula else inlet_cells_of(contact, mesh, film)
     lost = film_lost(contact, mesh, scene)
-    domain, nodes = domain_verdict(lost), surface.wave_nodes(contact, mesh)
+    domain, beyond = domain_verdict(lost), load_beyond(contact, mesh, scene)
     verdict = "coarse" if cells >= SEEN_CELLS else "grid-determined"
     if cells >= RESOLVED_CELLS:
         verdict = "resolved" if domain == SUFFICIENT else domain
-    shown, waves = surface.surface_verdict(contact, nodes), nodes if isfinite(nodes) else None
-    beyond = load_beyond(contact, mesh, scene)
-    found = Resolution(cells, verdict, domain, lost, shown, waves, beyond)
+    found = Resolution(cells, verdict, domain, lost, *_surface(contact, mesh), beyond)
     if scene is None or scene.is_steady:
         return found
     across = 2.0 / (mesh.dX if mesh.is_line else max(mesh.dX, mesh.dY))
@@ -101,6 +105,17 @@ def resolution(contact, mesh, scene=None, film=None):
         found, inlet_speed=abs(scene.speed.value(scene.slowest)), rests=scene.rests,
         nodes_at_rest=across if scene.rests else None,
     )  # fmt: skip
+
+
+def _standing(contact, mesh):
+    """The `Resolution` of surfaces that stand still throughout: no motion builds their film."""
+    return Resolution(nan, STANDS, STANDS, nan, *_surface(contact, mesh))
+
+
+def _surface(contact, mesh):
+    """What a mesh shows of the surface, and nodes in its shortest wave; None without waves."""
+    nodes = surface.wave_nodes(contact, mesh)
+    return surface.surface_verdict(contact, nodes), nodes if isfinite(nodes) else None
 
 
 def inlet_speed_words(resolution):
@@ -125,6 +140,8 @@ def near_rest(resolution):
 
 def inlet_words(resolution, advice):
     """Cells in the inlet, of which speed they are, and what to think of them."""
+    if resolution.verdict == STANDS:
+        return advice[STANDS]
     cells = f"{resolution.inlet_cells:.2f} cells{of_inlet(resolution)}"
     return f"{cells}, {advice[resolution.verdict]}{near_rest(resolution)}"
 
@@ -189,6 +206,8 @@ def domain_words(verdict, lost):
     """A verdict and its estimate in words."""
     if verdict == UNKNOWN:
         return "not judged: made by an older version"
+    if verdict == STANDS:
+        return "what is squeezed out beyond it is counted, as between rigid bodies"
     if verdict == SUFFICIENT:
         return f"sufficient: twice the size would change the film by some {lost:.1f} %"
     return (

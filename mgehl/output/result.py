@@ -124,6 +124,8 @@ class TimeResult:
     least_film_nm: float = None
     spikes: int = 0
     """Steps whose largest pressure is a spike that three nodes do not hold."""
+    squeezed_beyond: float = 0.0
+    """Of all steps the largest part of the load on what is squeezed out beyond the domain, below 0 in."""
     error: TimeError | None = None
     """The bands about its means; None in older results."""
 

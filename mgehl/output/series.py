@@ -33,6 +33,7 @@ COLUMNS = {
     "pressure_crest": ("1", "what it may be larger between the nodes, over itself"),
     "load_on_contact": ("1", "part of the load on contact nodes"),
     "load_on_solids": ("1", "part of the load that solids carry"),
+    "squeezed_beyond": ("1", "part of the load on oil that is squeezed out beyond the domain"),
     "friction": ("1", "shear of film and solids over the load"),
     "largest_shear_MPa": ("MPa", "largest shear stress of film and solids"),
     "rolling": ("1", "what drags each body against the motion, over the load"),
@@ -92,6 +93,7 @@ def row_of(instant, standing, problem, scene, convolutions, seconds):
         "pressure_crest": carried.crest_share,
         "load_on_contact": carried.contact,
         "load_on_solids": carried.solids,
+        "squeezed_beyond": problem.squeezed_beyond(state.H0) / problem.hertz.integral,
         **_resistance(instant, state, problem),
         "contact_nodes": last.contact_nodes,
         "cavitated_nodes": last.cavitated_nodes,
@@ -228,4 +230,5 @@ def time_result(rows, scene, work, largest_node):
         most_pressure_GPa=max(row["max_pressure_GPa"] for row in rows),
         least_film_nm=min(row["minimum_film_nm"] for row in rows),
         spikes=sum(row["pressure_crest"] > NARROW for row in rows),
+        squeezed_beyond=max((row.get("squeezed_beyond", 0.0) for row in rows), key=abs),
     )

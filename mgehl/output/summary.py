@@ -93,6 +93,7 @@ def summarise_in_time(problem, outcome, rows, scene, tolerance, making):
         result, converged=settled and not cut, settled=settled, reason=(settled and why) or reason,
         moes_film=moes and MoesFilm(moes * film.central, moes * film.minimum),
         mass=None, flux_imbalance=None, error=OF_AN_INSTANT, time=time,
+        formulas={} if scene.stands else result.formulas,
         thermal_reduction=end.thermal_reduction,
         mixed=result.mixed and replace(result.mixed, lambda_ratio=end.lambda_ratio),
     )  # fmt: skip
@@ -106,7 +107,7 @@ def of_every_load(problem, state, making, part):
     return {
         "converged": False, "settled": False, "reason": "",
         "max_pressure_GPa": 1e-9 * contact.hertz.p_h * grid.max(state.P),
-        "load_error": problem.load_deficit(state.P),
+        "load_error": problem.load_deficit(state.P, state.H0),
         "contact": _contact(problem, state, nm),
         "overlap": _overlap(grid, state, nm),
         "edge": check_edge(problem, state, part),

@@ -6,20 +6,24 @@ from mgehl.output.friction_result import strength_lines
 ALIKE = 1e-4
 """Part of a mean below which its band is not told."""
 
+BEYOND = 5e-4
+"""Part of the load beyond the domain that is told."""
+
 SPIKE = "a spike that three nodes do not hold"
 """What a largest pressure is beyond `NARROW`."""
 
 
 def time_lines(time):
     """What happened in a run in time, and the means over its last passage."""
+    passages = f"; {time.passages:.3g} passages" if time.passages else ""
     yield (
         f"in time: {1e3 * time.end_s:.6g} ms in {time.steps} steps, {time.halved} of them halved, half "
-        f"of them in {time.convolutions_a_step:.3g} convolutions or fewer; {time.passages:.3g} passages"
+        f"of them in {time.convolutions_a_step:.3g} convolutions or fewer{passages}"
     )
     yield f"oil: storage and flow close to {time.largest_closure:.1e} of what is stored in every step"
     if time.means:
         yield f"means over the last passage: {', '.join(_means(*_of_passage(time)))}"
-    else:
+    elif time.passages:
         yield "no means: the run ends before its first passage"
     if time.whole:
         bands = time.error.whole if time.error else {}
@@ -27,6 +31,10 @@ def time_lines(time):
     if time.most_pressure_GPa is not None:
         most, least = pressure_words(time.most_pressure_GPa), time.least_film_nm
         yield f"of all steps: largest pressure {most}, smallest film {least:.4g} nm"
+    if abs(time.squeezed_beyond) >= BEYOND:
+        most, out = 100.0 * abs(time.squeezed_beyond), time.squeezed_beyond > 0.0
+        what = "carried by what is squeezed out" if out else "added by what is sucked in"
+        yield f"up to {most:.1f} % of the load is {what} beyond the domain"
     if time.error and (time.means or time.whole):
         has_bands = time.error.means or time.error.whole
         yield f"{'bands' if has_bands else 'no band'} of means: {time.error.how}"

@@ -5,7 +5,14 @@ from mgehl.output.dry_error import no_band as no_dry_band
 from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.friction_result import friction_lines
 from mgehl.output.mixed_words import filling_words, mixed_lines
-from mgehl.output.resolution import RESOLVED_CELLS, SEEN_CELLS, beyond_words, domain_words, inlet_words
+from mgehl.output.resolution import (
+    RESOLVED_CELLS,
+    SEEN_CELLS,
+    STANDS,
+    beyond_words,
+    domain_words,
+    inlet_words,
+)
 from mgehl.output.surface import GRIDS, surface_words
 from mgehl.output.time_words import SPIKE, time_lines
 from mgehl.solver.gaps import NARROW
@@ -34,7 +41,7 @@ def where_to_read(result):
     """The line that says where to read on, in a list; empty where the answer can be used as it is."""
     if not result.converged:
         return [FAILED]
-    is_coarse = result.resolution and result.resolution.verdict != "resolved"
+    is_coarse = result.resolution and result.resolution.verdict not in ("resolved", STANDS)
     is_another = result.surface and result.surface.verdict == GRIDS
     return [UNRESOLVED] if is_coarse or is_another or _contact_is_the_grids(result) else []
 
@@ -247,6 +254,7 @@ def _nodes(result):
 
 
 ADVICE = {
+    STANDS: "none: the surfaces stand still, and oil is squeezed out or in",
     "resolved": "resolved",
     "starved": "enough, but the domain is too small for the film",
     "coarse": f"coarse (below {RESOLVED_CELLS:g}): expect the film to change with the grid",

@@ -15,6 +15,7 @@ import numpy as np
 from mgehl.discretization.status import BOUNDARY, CONTACT
 from mgehl.discretization.storage import content
 from mgehl.discretization.transport import Shift, moved
+from mgehl.solver.beyond import Beyond
 from mgehl.solver.carry import Carried, Reference, Transport
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.outcome import Outcome
@@ -93,7 +94,7 @@ class March:
         Without a `pace` steps are as long as `Pace` says."""
         self._scene, self._problem, self._newton, self._told = scene, problem, newton, told
         self._settings, self._pace = settings, pace or Pace(scene, problem.grid.mesh, settings.step)
-        self._transport = Transport(problem)
+        self._transport, self._beyond = Transport(problem), Beyond(problem)
 
     def run(self, state, path=(0.0, 0.0), reference=None, journal=NOTHING_KEPT):
         """March from a `state`, which is the march's own from now on; return the `Outcome`.
@@ -150,6 +151,7 @@ class March:
         self._turn(t, path)
         leg, reference = self._leg(standing, step, way)
         problem.storage = leg.storage
+        self._beyond.resist(standing.state, leg.dT, scene.load_share(t) / scene.load_share(standing.t))
         newton = self._solved(self._guess(standing, t, way, halvings), leg)
         if not newton.converged:
             self._why = newton.reason

@@ -226,14 +226,14 @@ class Newton(PythonSnes):
     def _form_function(self, _snes, x, f):
         """f = bordered residual at x for the present partition."""
         problem, status = self._problem, self._position.state.status
-        evaluation = self._evaluated(x)
-        P = np.where(problem.feeding(status), problem.contact.tears_at, self._space.read_pressure(x))
-        F, load = problem.residual(evaluation, status), problem.load_deficit(P)
+        evaluation, (z, H0) = self._evaluated(x), self._space.read(x)
+        P = np.where(problem.feeding(status), problem.contact.tears_at, z)
+        F, load = problem.residual(evaluation, status), problem.load_deficit(P, H0)
         self._space.write(f, F, load * self._load_scale)
 
     def _form_jacobian(self, _snes, x, _J, _preconditioner):
         """Linearise at x, for the linear system that is posed."""
-        self._multigrid.linearise(self._evaluated(x), *self._posed)
+        self._multigrid.linearise(self._evaluated(x), *self._posed, self._problem.resistance)
 
     def _evaluated(self, x):
         """The `Evaluation` at x: of the present state it is known, anything else takes a convolution."""

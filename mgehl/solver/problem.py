@@ -151,13 +151,16 @@ class ContactProblem(Problem):
 
     load_share = 1.0
     """Load of the instant, over that of the contact."""
+    resistance, H0_before = 0.0, 0.0
+    """Of the step in time, as `Beyond` tells: the load on what is squeezed out beyond the domain,
+    over what H0 falls by, and the H0 from which it falls."""
 
     def __init__(self, grid, deflection, contact, scheme):
         super().__init__(grid, contact, scheme)
         self.deflection = deflection
         self.K00 = influence_coefficients(grid.mesh, contact.kernel, 0, 1)[0, 0]
         self._centre = weights_of_centre(grid.mesh)[grid.first : grid.last]
-        self._undeformed, self.surfaced = contact.undeformed_gap(grid.X, grid.Y), contact
+        self.undeformed, self.surfaced = contact.undeformed_gap(grid.X, grid.Y), contact
         self._load_within = contact.load_within(grid.mesh)
 
     @property
@@ -176,7 +179,7 @@ class ContactProblem(Problem):
         friction = contact.friction.slowed(there.speed / contact.speed)
         self.flowing = replace(contact.turned(there.angle), lubricant=there.lubricant, friction=friction)
         if surfaces.surface is not self.surfaced.surface:
-            self._undeformed = surfaces.undeformed_gap(self.grid.X, self.grid.Y)
+            self.undeformed = surfaces.undeformed_gap(self.grid.X, self.grid.Y)
             self.surfaced = surfaces
         self.load_share = there.load / contact.load
         self._load_within = contact.load_within(self.grid.mesh, there, sense)
@@ -196,7 +199,7 @@ class ContactProblem(Problem):
 
     def gap(self, P, H0):
         """H of [Liu eq. 48] under the pressure P; one convolution."""
-        return self.deflection(P) + (self._undeformed + H0)
+        return self.deflection(P) + (self.undeformed + H0)
 
     def touching(self, P):
         """H0 with which the dry bodies would touch under the first guess P of a pressure."""
@@ -219,9 +222,14 @@ class ContactProblem(Problem):
         """A state of this problem with the pressures, statuses and contents of another one's."""
         return self.state(state.P, state.H0, state.status, state.p, state.filling)
 
-    def load_deficit(self, P):
-        """Integral of P minus the load that the domain carries  [Liu eq. 50]."""
-        return self.load(P) - self._load_within
+    def load_deficit(self, P, H0=0.0):
+        """Integral of P minus the load that the domain carries  [Liu eq. 50]; at an H0, in time."""
+        return self.load(P) - self._load_within + self.squeezed_beyond(H0)
+
+    def squeezed_beyond(self, H0):
+        """The load that oil carries beyond the domain where the step that is taken squeezes it out, in
+        units of the integral of P."""
+        return self.resistance * (self.H0_before - H0)
 
     def share_of_load(self, P, nodes):
         """Part of the load as it is now that some nodes carry, a mask (lines, nx)."""

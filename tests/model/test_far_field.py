@@ -21,8 +21,9 @@ def contact(M=3.0, L=2.0, angle=0.0, **bodies):
     return contact_of(moes(M, L, **bodies), {"motion": {"angle": angle}})
 
 
-def relaxed_load(x, y, cells):
-    """Load of the gap 1 + x^2 + y^2 on a rectangle whose film tears at p = 0, by central differences."""
+def relaxed_load(x, y, cells, squeezed=None):
+    """Load of the gap 1 + x^2 + y^2 on a rectangle whose film tears at p = 0, by central differences; of
+    bodies whose lengths have the ratio `squeezed` under an approach, not a motion."""
     X, Y = (np.linspace(*ends, cells + 1) for ends in (x, y))
     dx, dy = X[1] - X[0], Y[1] - Y[0]
 
@@ -32,8 +33,9 @@ def relaxed_load(x, y, cells):
     half_x, half_y = X[:-1] + 0.5 * dx, Y[:-1] + 0.5 * dy
     inner = np.s_[1:-1]
     west, east = cubed(half_x[:-1], Y[inner]) / dx**2, cubed(half_x[1:], Y[inner]) / dx**2
-    south, north = cubed(X[inner], half_y[:-1]) / dy**2, cubed(X[inner], half_y[1:]) / dy**2
-    wedge = np.broadcast_to(-2.0 * X[inner], west.shape).ravel()
+    dy_2 = (dy / (squeezed or 1.0)) ** 2
+    south, north = cubed(X[inner], half_y[:-1]) / dy_2, cubed(X[inner], half_y[1:]) / dy_2
+    wedge = np.broadcast_to(-2.0 * X[inner] if squeezed is None else 1.0, west.shape).ravel()
     before = [np.append(each.ravel(), 0.0) for each in (west * (X[inner] > X[1]), south)]
     diagonals = [
         -(west + east + south + north).ravel(), before[0][1:-1], (east * (X[inner] < X[-2])).ravel()[:-1],
@@ -53,6 +55,16 @@ def relaxed_load(x, y, cells):
 def test_what_is_missing_and_what_a_rectangle_carries_is_all_of_the_load(x, y):
     coarse, fine = (relaxed_load(x, y, cells) for cells in (48, 96))
     assert fine + (fine - coarse) / 3.0 + missing_load(x, y, 1.0, ALONG) == pytest.approx(WHOLE, rel=2e-3)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 0.4])
+def test_what_is_squeezed_beyond_a_rectangle_and_what_it_carries_is_all_of_the_load(ratio):
+    """p = k/h^2 with k = 1/(4 (1 + ratio^2)) on the whole plane."""
+    x, y, whole = (-6.6, 1.2), (-4.4, 3.0), 0.25 * np.pi / (1.0 + ratio**2)
+    coarse, fine = (relaxed_load(x, y, cells, ratio) for cells in (96, 192))
+    missing = missing_load(x, y, ratio, None)
+    assert missing > 0.1 * whole
+    assert fine + (fine - coarse) / 3.0 + missing == pytest.approx(whole, rel=2e-3)
 
 
 def test_where_no_film_tears_what_is_sucked_is_what_is_pressed():

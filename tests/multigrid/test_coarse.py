@@ -73,8 +73,9 @@ def test_what_single_precision_does_not_give_back_is_solved_in_doubles(bent):
     n = 200
     string = sparse.diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(n, n), format="csr")
     A, nothing = string @ string if bent else string + sparse.identity(n, format="csr"), np.zeros(n, bool)
-    inverse = DenseInverse(A, sparse.identity(n, format="csr"), np.zeros((n, n)), 0.5, nothing, np.ones(n),
-                           lambda precision: np.empty((n + 1) ** 2, precision))  # fmt: skip
+    stiffness = A, sparse.identity(n, format="csr"), np.zeros((n, n))
+    masks, room = (nothing, np.ones(n)), lambda precision: np.empty((n + 1) ** 2, precision)
+    inverse = DenseInverse(*stiffness, (0.5, 0.3), *masks, room)
     known = np.random.default_rng(3).standard_normal(n + 1)
-    right = np.append(A @ known[:-1] + known[-1], 0.5 * known[:-1].sum())
+    right = np.append(A @ known[:-1] + known[-1], 0.5 * known[:-1].sum() - 0.3 * known[-1])
     np.testing.assert_allclose(inverse(right), known, rtol=0.0, atol=1e-6 if bent else 1e-12)

@@ -6,6 +6,8 @@ from mgehl.discretization.rows import FLOW
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.discretization.storage import Storage
+from mgehl.multigrid.coarse import CoarseSolve
+from mgehl.solver.beyond import Beyond
 from mgehl.solver.problem import State
 
 STEP = 1e-6
@@ -30,7 +32,7 @@ def rows(problem, state, dP, dH0, step):
     P, H0 = state.P + step * np.where(cavity, 0.0, dP), state.H0 + step * dH0
     filling = state.filling + step * np.where(cavity, dP, 0.0)
     moved = State(P, H0, problem.gap(P, H0), state.status, filling=filling)
-    return problem.residual(problem.evaluate(moved), moved.status), problem.load_deficit(P)
+    return problem.residual(problem.evaluate(moved), moved.status), problem.load_deficit(P, H0)
 
 
 def differences(problem, state, dP, dH0):
@@ -96,6 +98,27 @@ def test_a_time_step_stores_what_flows_in(make_problem, rough_state, make_jacobi
     ahead, behind = (residual(problem.evaluate(each), rows) for each in moved)
     film = rows == FLOW
     assert_close(r[film], ((ahead - behind) / (2.0 * STEP))[film])
+
+
+def test_oil_that_is_squeezed_out_beyond_the_domain_carries(
+    make_problem, rough_state, make_jacobian, make_vec
+):
+    """The load answers to H0 by itself: product and inverse, the coarsest grid's."""
+    problem = make_problem(nodes=17, coarsest=17)
+    state, (dP, dH0) = rough_state(problem, contact=False), direction(problem)
+    Beyond(problem).resist(state, 1e-3, 1.0)
+    jacobian = make_jacobian(problem, state)
+    jacobian.resistance = problem.resistance
+    r, border = apply(jacobian, make_vec, dP, dH0)
+    _, load = differences(problem, state, dP, dH0)
+    assert border == pytest.approx(load * jacobian.load_scale, rel=1e-6)
+    own = problem.resistance * dH0 * jacobian.load_scale
+    assert own > 0.1 * abs(border + own) and border + own == pytest.approx(jacobian.load_weight * dP.sum())
+    coarse = CoarseSolve(jacobian)
+    coarse.gather()
+    coarse.factor()
+    found, found_H0 = coarse.solve(r, border)
+    assert found_H0 == pytest.approx(dH0) and found == pytest.approx(dP, abs=1e-6)
 
 
 @pytest.mark.parametrize("couette", ["1B", "3B"])

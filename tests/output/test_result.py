@@ -25,7 +25,7 @@ def summary(tiny_problem, outcome, monkeypatch):
     def make(residual=1e-9, load=-2e-10):
         monkeypatch.setattr(tiny_problem, "state", lambda *_: outcome.state)
         monkeypatch.setattr(tiny_problem, "residual", lambda _, status: np.full(status.shape, residual))
-        monkeypatch.setattr(tiny_problem, "load_deficit", lambda P: load)
+        monkeypatch.setattr(tiny_problem, "load_deficit", lambda P, H0: load)
         monkeypatch.setattr("mgehl.output.summary._conserves", lambda *_: True)
         return summarise(tiny_problem, outcome, 1e-8, Making(Work(12.5, 7), 3.0, {"mgehl": "0"}))
 

@@ -58,7 +58,7 @@ class TestAnswers:
         """Beside another method: least squares without negative numbers, of the dense matrix."""
         problem = make_problem(nodes=17)
         random = np.random.default_rng(3)
-        problem._undeformed = problem._undeformed + 0.2 * random.random(problem.grid.shape)
+        problem.undeformed = problem.undeformed + 0.2 * random.random(problem.grid.shape)
         outcome, _ = settle(problem)
         state, inner = outcome.state, ~problem.boundary
         K = influence_coefficients(problem.grid.mesh, problem.contact.kernel)
@@ -66,7 +66,7 @@ class TestAnswers:
         dense = K[np.abs(np.subtract.outer(j, j)), np.abs(np.subtract.outer(i, i))]
         # With the approach given: P K P/2 + P (gap - approach), which is |R P - c|^2/2 of K = R' R.
         root = np.linalg.cholesky(dense).T
-        target = np.linalg.solve(root.T, -(problem._undeformed[inner] + state.H0))
+        target = np.linalg.solve(root.T, -(problem.undeformed[inner] + state.H0))
         expected, _ = nnls(root, target, maxiter=5000)
         assert 5 < (expected > 0.0).sum() < 100 < inner.sum()
         np.testing.assert_allclose(state.P[inner], expected, rtol=0.0, atol=1e-8)
@@ -83,7 +83,7 @@ class TestAnswers:
         problem = make_problem(nodes=17)
         peak = np.zeros(problem.grid.shape)
         peak[8, 7] = 1e3
-        problem._undeformed = (0.0 if flat else 1.0) * problem._undeformed - peak
+        problem.undeformed = (0.0 if flat else 1.0) * problem.undeformed - peak
         outcome, _ = settle(problem)
         assert outcome.converged and outcome.state.P[8, 7] > 0.0
         assert np.count_nonzero(outcome.state.P) == 1

@@ -24,7 +24,7 @@ from mgehl.output.mixed_words import gap_band_words, mean_gaps, mixed_note
 from mgehl.output.pictures import style
 from mgehl.output.pictures.figures import drawn_by, figures
 from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER, number, picture, render
-from mgehl.output.resolution import RESOLVED_CELLS, STARVED_FROM, near_rest, of_inlet
+from mgehl.output.resolution import RESOLVED_CELLS, STANDS, STARVED_FROM, near_rest, of_inlet
 from mgehl.output.summary import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import ADVICE as SURFACE
 from mgehl.output.surface import RESOLVED_NODES
@@ -141,6 +141,7 @@ FUNCTIONS = {
     "SURFACE": SURFACE, "COMPLEMENTARITY_TOLERANCE": COMPLEMENTARITY_TOLERANCE,
     "FEWEST_NODES": FEWEST_NODES, "LARGEST_EDGE_PRESSURE": LARGEST_EDGE_PRESSURE,
     "RESOLVED_CELLS": RESOLVED_CELLS, "RESOLVED_NODES": RESOLVED_NODES, "STARVED_FROM": STARVED_FROM,
+    "STANDS": STANDS,
 } | {
     each.__name__: each for each in (
         number, limited, enough, absent, informing, judged, from_each, advice, band_words, gap_band_words,
@@ -195,7 +196,8 @@ def notes_on(solution):
     """Sentences on the films of a lubricated contact: what formulas assume, and beside the bands."""
     contact = solution.contact
     if contact.is_loaded and not solution.is_dry:
-        yield "What the formulas assume: " + "; ".join(assumptions(contact))
+        if solution.result.formulas:
+            yield "What the formulas assume: " + "; ".join(assumptions(contact))
         yield from beside_bands(solution)
 
 
