@@ -62,7 +62,7 @@ REFUSED = {
     "contact.deformation=laws.py:jump": "as a sum of images",
     "contact.surface=pipe.py:flat": "cannot be read: is no file",
     "contact.surface=laws.txt:flat": "must be FILE.py:FUNCTION",
-    "lubricant.viscosity_law=newton": "must be one of barus, roelands, FILE.py:FUNCTION",
+    "lubricant.viscosity_law=newton": "must be one of barus, roelands, constant, FILE.py:FUNCTION",
 }
 
 

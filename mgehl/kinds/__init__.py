@@ -12,7 +12,7 @@ from mgehl.kinds.dry import fluid_choices
 from mgehl.kinds.friction import friction_choices
 from mgehl.kinds.heat import heat_choices
 from mgehl.kinds.line import LINE
-from mgehl.kinds.lubricant import derived_from_oil
+from mgehl.kinds.lubricant import derived_from_oil, law_choices
 from mgehl.kinds.own import naming_keys
 from mgehl.kinds.point import POINT, point_choices
 from mgehl.kinds.surface import check_ways
@@ -28,7 +28,7 @@ def choices(tables):
     kind = KINDS.get(word_of(tables, "contact.kind"))
     makers = (
         point_choices, surface_choices, time_choices, friction_choices, fluid_choices, wedge_choices,
-        word_choices, heat_choices,
+        word_choices, heat_choices, law_choices,
     )  # fmt: skip
     return [*([kind_choice(kind)] if kind else []), *chain(*(maker(tables) for maker in makers))]
 

@@ -4,12 +4,15 @@ from dataclasses import dataclass, fields, replace
 
 from mgehl.config_value import number, shown, word
 from mgehl.errors import ConfigError
-from mgehl.kinds.choice import Derived
+from mgehl.kinds.choice import Choice, Derived, word_of
 from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Lubricant
 from mgehl.model.oils import CELSIUS, OILS, thinning, walther
 from mgehl.model.own_function import OwnFunction, absolute, is_own
 from mgehl.model.own_laws import OwnDensity, OwnViscosity
 from mgehl.model.sources import SOURCES
+
+CONSTANT = "constant"
+"""Viscosity that does not answer to pressure."""
 
 
 @dataclass(frozen=True)
@@ -39,9 +42,18 @@ class LubricantSection:
     # fmt: on
 
 
+def law_choices(tables):
+    """A constant viscosity does not answer to pressure."""
+    if word_of(tables, "lubricant.viscosity_law") == CONSTANT:
+        said = f'where lubricant.viscosity_law = "{CONSTANT}"'
+        yield Choice(said, gives=("lubricant.pressure_viscosity",))
+
+
 def derived_from_oil(config):
     """What follows from [lubricant]: `Derived`, in order. Raises ConfigError."""
     section = config.lubricant
+    if section.viscosity_law == CONSTANT:
+        yield Derived("lubricant.pressure_viscosity", 0.0, "a constant viscosity")
     if section.oil is not None:
         law = OILS[section.oil].law(section.temperature)
         words = f"{section.oil} at {section.temperature - CELSIUS:.4g} C"

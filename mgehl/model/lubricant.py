@@ -97,7 +97,7 @@ class ConstantDensity:
 USUAL_CONDUCTIVITY = 0.14
 """Of oils, in W/(m K)."""
 
-VISCOSITY_LAWS = {"barus": Barus, "roelands": Roelands}
+VISCOSITY_LAWS = {"barus": Barus, "roelands": Roelands, "constant": ConstantViscosity}
 DENSITY_LAWS = {"dowson-higginson": DowsonHigginson, "constant": ConstantDensity}
 
 

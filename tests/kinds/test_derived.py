@@ -246,3 +246,14 @@ def test_a_ball_rolls_on_its_radius_and_who_tells_it_on_that():
         None, settings | {"body_2.radius_x": -0.1, "body_2.rotation": 9.0, "body_1.speed": 1}
     )
     assert arms(config, 30.0) == [0.01, 0.04]
+
+
+def test_a_constant_viscosity_answers_to_no_pressure():
+    """People looked for it among the laws, and found 0 as the pressure's coefficient."""
+    law = {"lubricant.viscosity_law": "constant"}
+    config, named = of(law), of({"lubricant.pressure_viscosity": 0.0})
+    assert config.lubricant.pressure_viscosity == 0.0
+    assert contact_from(config).groups == contact_from(named).groups
+    assert of({"lubricant.pressure_viscosity": 1e-8}).with_(law).lubricant == config.lubricant
+    with pytest.raises(ConfigError, match="give one of them"):
+        of(law | {"lubricant.pressure_viscosity": 1e-8})
