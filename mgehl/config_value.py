@@ -38,12 +38,15 @@ _PRINTED = (
     (re.compile(r"(?<=[A-Za-z])\.(?=[A-Za-z])"), lambda _: "*"),
     (re.compile(r"\b(m?)Pas\b"), lambda m: f"{m[1]}Pa*s"),
     (re.compile(r"\bNs\b"), lambda _: "N*s"),
-    (re.compile(r"(?<=\d)\s*r/min\b"), lambda _: " rpm"),
+    (re.compile(r"(?<=\d)\s*(?:(?:r|U|rev|\s1)?/min|\smin\^-1)$"), lambda _: " rpm"),
+    (re.compile("[\u00c5\u212b]"), lambda _: "angstrom"),
     (re.compile(r"(?<=/)\s*(?:°C|degC)\b"), lambda _: "K"),  # a difference
     (re.compile(r"(?<=[WJ]) */ *(m|kg|m\^?3)[ *]*K\b"), lambda m: f"/{m[1].replace('m3', 'm^3')}/K"),
 )
 """How data sheets print units that pint reads in another form: mPa·s, mm²/s, mm s-1, W/(m K), mPas,
-kg/m3, mPa.s, Ns/m2, r/min."""
+kg/m3, mPa.s, Ns/m2, r/min, 1/min, and the angstrom's sign."""
+
+_PERCENT = re.compile(r"\s*([-+]?\d*\.?\d+)\s*%\s*")
 
 EXAMPLES = {"K": "60 degC", "rad/s": "6000 rpm"}
 """Values of units that people seldom say in SI."""
@@ -137,6 +140,8 @@ def _number(key, rules, given):
     value = given
     if isinstance(value, str) and rules["unit"] is not None:
         value = _with_unit(key, rules["unit"], value, rules["instead"])
+    elif isinstance(value, str) and (percent := _PERCENT.fullmatch(value)):
+        value = 0.01 * float(percent[1])
     is_whole = rules["kind"] is int
     if not _is_number(value) or (is_whole and value != int(value)) or not _in_range(rules, value):
         wrong = given if _is_number(value) else value

@@ -86,4 +86,4 @@ def _thins(config):
 def thinning_words(contact):
     """What formulas do not know where shear thins the film; nothing elsewhere."""
     if contact.friction.thins:
-        yield "shear thins the film: it is thinner than formulas say, and its inlet has fewer cells"
+        yield "shear thins the oil: formulas do not know of it, and the inlet has fewer cells than they say"

@@ -240,9 +240,13 @@ def _either_body(config):
         )
 
 
+ROUNDED = 0.01
+"""K by which a temperature that was given in other degrees may be off."""
+
+
 def _range(section, p_h):
     oil = OILS[section.oil]
-    if not oil.coldest <= section.temperature <= oil.warmest:
+    if not oil.coldest - ROUNDED <= section.temperature <= oil.warmest + ROUNDED:
         yield (
             f"lubricant.temperature = {section.temperature - CELSIUS:.4g} C: {section.oil} was measured "
             f"from {oil.coldest - CELSIUS:g} to {oil.warmest - CELSIUS:g} C: its law is extended beyond"

@@ -30,7 +30,14 @@ parts of balls by chance on 65 and 129 nodes were farther off than these differ.
 UNSEEN_CELLS, OF_UNSEEN = 0.5, 3.0
 """Cells in the inlet below which bands are so many times as wide: where no grid sees the inlet an error is
 several times the difference to the next coarser grid. Of 113 such bands of random machine contacts and
-balls on 65 and 129 nodes 10 were too narrow, by 1.2 to 2.8 times, of 84 on grids of more than a cell 2."""
+balls on 65 and 129 nodes 10 were too narrow, by 1.2 to 2.8 times, of 84 on grids of more than a cell 2.
+So wide are those about loads of line contacts that touch, too, where all oil has to pass every ridge, by a
+gap of a nanometre: @@"""
+
+WIDEST_OF = dict.fromkeys(("mean_nm", "loaded_nm", "friction", "rolling"), WIDEST) | dict.fromkeys(
+    ("contact_load_share", "solid_load_fraction"), WIDEST_SHARE
+)
+"""What hangs on the film, and from where on a band about it tells nothing: over itself, or of loads."""
 
 SMALLEST = 1e-4
 """Half-width at the least, over the gap or pressure, or in parts of the load."""
@@ -105,6 +112,8 @@ def gap_error(result, beside, progress):
     found = from_grids(grids)
     if result.resolution.inlet_cells < UNSEEN_CELLS:
         found = by_unseen_inlet(found, grids[0])
+    elif problem.contact.is_line and max(each.contact_load_share for each in grids) > 0.0:
+        found = by_ridges(found, grids[0])
     return replace(found, grids=grids, convolutions=progress.convolutions - before)
 
 
@@ -148,13 +157,15 @@ def from_grids(grids):
             return None
         return unless_wider(half_width(*on_both(name), apart, True), WIDEST * abs(getattr(finest, name)))
 
+    contact = share_half_width(*on_both("contact_load_share"), coarser.contact_load_apart)
+    solids = share_half_width(*on_both("solid_load_fraction"), coarser.solid_load_apart)
     return GapError(
         mean,
         unless_wider(loaded, WIDEST * finest.loaded_nm),
         f"from the differences to {coarser.nodes} nodes",
         max_pressure_GPa=unless_wider(pressure, WIDEST * finest.max_pressure_GPa),
-        contact_load_share=share_half_width(*on_both("contact_load_share"), coarser.contact_load_apart),
-        solid_load_fraction=share_half_width(*on_both("solid_load_fraction"), coarser.solid_load_apart),
+        contact_load_share=contact,
+        solid_load_fraction=None if contact is None else solids,  # they carry a part of that
         friction=of_force("friction", coarser.friction_apart),
         rolling=of_force("rolling"),
     )
@@ -162,23 +173,36 @@ def from_grids(grids):
 
 def by_unseen_inlet(error, finest):
     """A `GapError` of grids that do not see the inlet: all of it is wider that hangs on the film."""
+    unseen = "the inlet has less than half a cell"
+    found = _wider(error, finest, WIDEST_OF, f"but for the pressure: {unseen}")
+    if error.mean_nm is not None and found.mean_nm is None:
+        return no_band(f"{unseen}: the grid decides what is film")
+    return found
+
+
+def by_ridges(error, finest):
+    """A `GapError` of a line contact that touches: its loads and its friction have wider bands."""
+    names = "friction", "contact_load_share", "solid_load_fraction"
+    return _wider(
+        error, finest, names, "about loads and friction: no oil flows around a ridge that touches"
+    )
+
+
+def _wider(error, finest, names, where):
+    """A `GapError` some of whose bands are `OF_UNSEEN` times as wide."""
     if error.mean_nm is None:
         return error
-    widest = {
-        "mean_nm": WIDEST * finest.mean_nm,
-        "loaded_nm": WIDEST * finest.loaded_nm,
-        "friction": WIDEST * abs(finest.friction or 0.0),
-        "rolling": WIDEST * abs(finest.rolling or 0.0),
-        "contact_load_share": WIDEST_SHARE,
-        "solid_load_fraction": WIDEST_SHARE,
+    wider = {
+        name: half and OF_UNSEEN * half for name in names if (half := getattr(error, name)) is not None
     }
-    wider = {name: getattr(error, name) and OF_UNSEEN * getattr(error, name) for name in widest}
-    if wider["mean_nm"] > widest["mean_nm"]:
-        return no_band("the inlet has less than half a cell: the grid decides what is film")
-    kept = {name: half and unless_wider(half, widest[name]) for name, half in wider.items()}
-    wider_by = f"{OF_UNSEEN:g} times as wide but for the pressure"
-    how = f"{error.how}; {wider_by}: the inlet has less than half a cell"
-    return replace(error, **kept, how=how)
+    kept = {name: half and unless_wider(half, _widest(name, finest)) for name, half in wider.items()}
+    return replace(error, **kept, how=f"{error.how}; {OF_UNSEEN:g} times as wide {where}")
+
+
+def _widest(name, finest):
+    """From where on a band about a number of the finest grid tells nothing."""
+    part, of_load = WIDEST_OF[name], WIDEST_OF[name] == WIDEST_SHARE
+    return part if of_load else part * abs(getattr(finest, name))
 
 
 def half_width(value, coarser, apart, touches=False):

@@ -32,6 +32,7 @@ from mgehl.output.files import (
     PICTURE,
     RESULT,
     SERIES,
+    STUDY,
     WHOLE,
 )  # fmt: skip
 from mgehl.output.files import NAMES as RUN_FILES
@@ -95,6 +96,8 @@ def _read(directory, found, source=None):
     if source is None and not is_plain(path):
         if is_begun(directory):
             raise OutputError(f"{directory}: has not finished: go on with: mgehl run --resume {directory}")
+        if is_plain(directory / STUDY):
+            raise OutputError(f"{directory}: is a sweep or a study, whose runs are {directory}/runs/*")
         raise OutputError(f"{directory}: is no run directory: it has no {FIELDS}")
     try:
         with h5py.File(source or path, "r") as file:

@@ -46,7 +46,9 @@ COLUMNS = {
     "residual": ("residual", ".1e"),
     "load error": ("load_error", ".1e"),
     "load on contact": ("contact.load_fraction", ".4f"),
+    "load on contact ±": ("mixed.error.contact_load_share", ".4g"),
     "load on solids": ("mixed.solid_load_fraction", ".4f"),
+    "load on solids ±": ("mixed.error.solid_load_fraction", ".4g"),
     "contact/Hertz area": ("contact.area_fraction", ".4f"),
     "contact/Hertz area ±": ("dry_error.area_fraction", ".4g"),
     "mean gap nm": ("mixed.mean_gap_nm", ".6g"),
@@ -58,6 +60,10 @@ COLUMNS = {
     "friction of film": ("friction.film_coefficient", ".4g"),
     "friction of solids": ("friction.solid_coefficient", ".4g"),
     "rolling friction": ("friction.rolling_coefficient", ".4g"),
+    "rolling friction ±": ("friction.rolling_band", ".4g"),
+    "flash 1 K": ("friction.temperatures.largest_1", ".4g"),
+    "flash 2 K": ("friction.temperatures.largest_2", ".4g"),
+    "film K": ("friction.temperatures.film", ".4g"),
     "lambda": ("mixed.lambda_ratio", ".4g"),
     "mean film nm": ("mixed.mean_film_nm", ".4g"),
     "contact nodes on X": ("contact.x_nodes", span),
@@ -69,6 +75,9 @@ COLUMNS = {
     "convolutions": ("work.convolutions", ".1f"),
 }
 """What each column shows: where it is in result.json, and its format or a function."""
+
+OF_HEAT = "flash 1 K", "flash 2 K", "film K"
+"""Columns that only runs with temperatures have."""
 
 SLIDING = "friction", "friction of film", "friction of solids"
 """Columns of bodies whose sliding is known: where it is not given their 0 is no answer."""
@@ -102,6 +111,8 @@ def _row(directory, keys):
     for name, (path, shape) in COLUMNS.items():
         if path.split(".")[0] in result:
             found = told_at(result, path)
+            if found is None and name in OF_HEAT:
+                continue
             row[name] = shape(found) if callable(shape) else "" if found is None else format(found, shape)
     if told.value("contact.kind") == "line":
         row.pop("approach um", None)  # it counts from a distance of a: loads cannot be compared

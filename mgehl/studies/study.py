@@ -218,9 +218,11 @@ def _has_finished(path, config):
     """Whether the run of this configuration is there."""
     if is_begun(path) or not (path / FIELDS).exists():
         return False
-    there, here = (
-        tomllib.loads(text) for text in (read_texts(path)[CONFIGURATION], tomli_w.dumps(portable(config)))
-    )
+    try:
+        known = read_texts(path)[CONFIGURATION]
+    except OutputError as error:
+        raise OutputError(f"{error}; without {path} it is solved anew") from None
+    there, here = (tomllib.loads(text) for text in (known, tomli_w.dumps(portable(config))))
     if keys := differing([there, here]):
         old, new = (said(value_of(tables, keys[0])) or "unset" for tables in (there, here))
         other = f"is of another configuration, {keys[0]} = {old} and not {new}"

@@ -26,6 +26,7 @@ from mgehl.output.surroundings import versions
 from mgehl.output.table import collect, said
 from mgehl.output.whole_file import whole_file, writing
 from mgehl.saying import mention
+from mgehl.solver.recipe import A_STATE
 from mgehl.solver.restart import Forecast
 from mgehl.studies.points import WAYS
 from mgehl.studies.study import begun
@@ -73,6 +74,7 @@ def fill(study, directory, axes, points, name="sweep"):
     study.write_table(name, rows, shown, names=len(axes))
     if study.first and study.speak:
         _say_of_shear(runs)
+        _say_of_ways([stop for stop in walk.stops if stop.point.way])
     on_first_rank(study.comm, write_arrays, study.directory / f"{name}.nc", axes, points, runs)
     study.draw(name, curves, runs, axes[0].key, [WAYS[p.way] for p in points if points[-1].way])
     return runs
@@ -139,6 +141,17 @@ class _Walk:
         study.tell(title, solution.result)
         told = study.comm.bcast(on_first_rank(study.comm, read_told, self.folder / run))
         return solution, _Stop(point, told, run)
+
+
+def _say_of_ways(back):
+    """Say how many of the stops on the way back began from nothing: there the ways say nothing."""
+    recipes = (told_at(stop.told.result, "recipe.begins") for stop in back if stop.told.settled)
+    anew = sum(begins is not None and begins != A_STATE for begins in recipes)
+    if anew:
+        mention(
+            f"{anew} of {len(back)} points on the way back were solved from nothing, for the point before "
+            "is too far: of these the two ways tell nothing"
+        )
 
 
 def _say_of_shear(runs):

@@ -1,5 +1,6 @@
 import json
 from dataclasses import replace
+from shutil import copytree, rmtree
 from types import SimpleNamespace
 
 import h5netcdf
@@ -251,3 +252,28 @@ def test_from_python(film):
     config = load_config(None, {"grid.nodes": 65, "solver.error": False, "solver.start": "film"})
     found = mgehl.sweep(config, {"motion.speed": "0.5..2 m/s:3"}, film)
     assert found.central_film_nm.sel(motion_speed=1.25) == array(film, "central_film_nm")[1]
+
+
+def test_a_way_back_from_nothing_says_so(tmp_path, capsys):
+    """The same solve twice was read as: no hysteresis."""
+    heights = "surface.amplitude=10,30 nm"
+    rough = ["--set", "surface.kind=waviness", "--set", "surface.wavelength_x=100 um"]
+    out = str(tmp_path / "both")
+    assert main(["sweep", *FILM, *rough, "--over", heights, "--both-ways", "--out", out]) == 0
+    assert "1 of 2 points on the way back were solved from nothing" in capsys.readouterr().out
+    speeds = ["--over", "motion.speed=1,1.1 m/s", "--both-ways", "--out", str(tmp_path / "near")]
+    assert main(["sweep", *FILM, *speeds]) == 0
+    assert "from nothing" not in capsys.readouterr().out
+
+
+def test_a_run_that_is_damaged_is_named_and_a_sweep_is_no_run(film, tmp_path, capsys):
+    copy = tmp_path / "copy"
+    copytree(film, copy)
+    assert main(["plot", str(copy)]) == 2
+    assert f"is a sweep or a study, whose runs are {copy}/runs/*" in capsys.readouterr().err
+    fields = copy / "runs" / "002" / "fields.h5"
+    fields.write_bytes(fields.read_bytes()[:1000])
+    assert main([*SWEEP, str(copy), "--resume"]) != 0
+    assert f"without {fields.parent} it is solved anew" in capsys.readouterr().err
+    rmtree(fields.parent)
+    assert main([*SWEEP, str(copy), "--resume"]) == 0 and table(copy) == table(film)

@@ -130,7 +130,7 @@ def test_what_a_word_needs_is_named(word):
          ["temperature = '60 degC': means nothing without lubricant.oil or lubricant.kinematic_visc"]),
         ({"lubricant.density": 850}, ["density = 850: means nothing without lubricant.kinematic_visc"]),
         ({"body_1.rotation": "100 Hz"}, ["turns or radians", "6000 rpm"]),
-        ({"body_1.rotation": "600 1/min"}, ["turns or radians"]),
+        ({"body_1.rotation": "100 1/s"}, ["turns or radians", "6000 rpm"]),
         ({"motion.ring_rotation": "60 rpm"}, ["ring_rotation: needs diameter or radius_x of a ball"]),
         ({"motion.speed": "6000 rpm"}, ["wrong unit", "motion.ring_rotation take rpm"]),
         ({"lubricant.viscosity": "20.3 cSt"}, ["wrong unit", "lubricant.kinematic_viscosity takes cSt"]),
@@ -257,3 +257,16 @@ def test_a_constant_viscosity_answers_to_no_pressure():
     assert of({"lubricant.pressure_viscosity": 1e-8}).with_(law).lubricant == config.lubricant
     with pytest.raises(ConfigError, match="give one of them"):
         of(law | {"lubricant.pressure_viscosity": 1e-8})
+
+
+@pytest.mark.parametrize(
+    "unit", [" rpm", " 1/min", "/min", " U/min", " min-1", " r/min", " min\u207b\u00b9"]
+)
+def test_a_rotation_is_read_as_catalogues_print_it(unit):
+    """1/min was of what, turns or radians."""
+    body = {"body_1.diameter": "10 mm", "body_1.rotation": f"6000{unit}", "body_2.speed": 0}
+    assert of(STEEL | body).body_1.rotation == pytest.approx(200.0 * pi)
+
+
+def test_slip_may_be_given_in_per_cent():
+    assert of({"motion.slide_to_roll": "20 %"}).motion.slide_to_roll == pytest.approx(0.2)
