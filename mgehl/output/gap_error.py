@@ -32,7 +32,7 @@ UNSEEN_CELLS, OF_UNSEEN = 0.5, 3.0
 several times the difference to the next coarser grid. Of 113 such bands of random machine contacts and
 balls on 65 and 129 nodes 10 were too narrow, by 1.2 to 2.8 times, of 84 on grids of more than a cell 2.
 So wide are those about loads of line contacts that touch, too, where all oil has to pass every ridge, by a
-gap of a nanometre: @@"""
+gap of a nanometre: of 72 on 513 and 1025 nodes 4 were too narrow beside 2049, by 1.2 to 4.3 times."""
 
 WIDEST_OF = dict.fromkeys(("mean_nm", "loaded_nm", "friction", "rolling"), WIDEST) | dict.fromkeys(
     ("contact_load_share", "solid_load_fraction"), WIDEST_SHARE
