@@ -79,7 +79,7 @@ def test_loads_of_lines_that_touch_have_a_wider_band():
     coarser = replace(grid(129), solid_load_apart=0.01, friction=0.052)
     plain = from_grids((replace(grid(257), friction=0.05), coarser))
     wide = by_ridges(plain, replace(grid(257), friction=0.05))
-    for name in ("friction", "solid_load_fraction"):
+    for name in ("friction", "solid_load_fraction", "loaded_nm"):
         assert (
             getattr(wide, name) == pytest.approx(3.0 * getattr(plain, name)) or getattr(wide, name) is None
         )
