@@ -95,7 +95,7 @@ bench: $(ENVIRONMENT)
 
 # make studies     run all studies and write their tables, and the pictures that pages show, to runs/tables (hours)
 # make study-NAME  one of them. One that was stopped goes on; what did not converge says so in the table.
-STUDIES := wedge grid transition methods schemes error passages mixed machine rollers solids stribeck waviness moving courses dry
+STUDIES := wedge grid transition methods schemes error rough passages mixed machine rollers solids stribeck waviness moving courses dry
 WITH_grid := --nodes 257,513,1025,2049
 WITH_transition := --nodes 257,513,1025
 SHOWN_courses := *.png

@@ -22,6 +22,7 @@ STUDIES = {
     "methods": Entry("Newton beside relaxation, interface conditions beside none", grids=0),
     "schemes": Entry("a film by every differential scheme", doubles=True),
     "error": Entry("do the bands about films hold? Point contacts by chance", doubles=True, draws=True),
+    "rough": Entry("do the bands about rough contacts hold? By chance", grids=0, draws=True),
     "passages": Entry("do the bands about runs in time hold? By chance", doubles=True, draws=True),
     "mixed": Entry("rough balls by chance: verdicts and work", grids=1, draws=True),
     "machine": Entry("rough contacts of machines by chance: verdicts and gaps", grids=1, draws=True),
