@@ -2,7 +2,7 @@ from mpi4py import MPI
 from told import rows_of
 
 from mgehl.output.study_directory import StudyRecord
-from mgehl.studies import error, passages
+from mgehl.studies import error, passages, rough
 from mgehl.studies.study import Study
 
 
@@ -36,3 +36,20 @@ def test_bands_of_a_random_run_in_time(tmp_path, monkeypatch):
         value, half_width = map(float, row["value"].split(" ± "))
         off = abs(float(row["limit"]) - value)
         assert row["band/error"].endswith("!") == (off > half_width)
+
+
+def test_bands_of_random_rough_contacts(tmp_path, monkeypatch):
+    monkeypatch.setattr(rough, "GRIDS", {"line": (129, 257), "point": (65, 129)})
+    asked = StudyRecord("rough", (), 1, {}, cases=2, seed=4)
+    rough.run(Study(tmp_path, MPI.COMM_SELF, asked, speak=False))
+    rows, bands = rows_of(tmp_path / "cases.csv"), rows_of(tmp_path / "bands.csv")
+    drawn = rough.draw(2, 4)
+    assert [kind for kind, _ in drawn.values()] == ["line", "point"]
+    assert {row["contact"] for row in rows} <= set(drawn) and rows
+    for row in rows:
+        value, _, half_width = row["friction"].partition(" ± ")
+        if half_width:
+            off = abs(float(row["friction limit"]) - float(value))
+            assert row["friction band/error"].endswith("!") == (off > float(half_width))
+    kinds = {row["of"].rpartition(", ")[2] for row in bands}
+    assert kinds == {drawn[row["contact"]][0] for row in rows} and len(bands) == 6 * len(kinds)
