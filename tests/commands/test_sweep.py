@@ -256,7 +256,7 @@ def test_from_python(film):
 
 def test_a_way_back_from_nothing_says_so(tmp_path, capsys):
     """The same solve twice was read as: no hysteresis."""
-    heights = "surface.amplitude=10,30 nm"
+    heights = "surface.amplitude=2,8 nm"  # in a film of 270 nm
     rough = ["--set", "surface.kind=waviness", "--set", "surface.wavelength_x=100 um"]
     out = str(tmp_path / "both")
     assert main(["sweep", *FILM, *rough, "--over", heights, "--both-ways", "--out", out]) == 0

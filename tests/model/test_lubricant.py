@@ -3,7 +3,7 @@ from math import exp, log
 import numpy as np
 import pytest
 
-from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, Roelands
+from mgehl.model.lubricant import DENSITY_LAWS, VISCOSITY_LAWS, ConstantViscosity, Roelands
 from mgehl.model.oils import CELSIUS, OILS
 
 P_H = 0.8e9
@@ -14,7 +14,13 @@ def central_difference(law, P, d=1e-6):
     return (law(P + d, P_H)[0] - law(P - d, P_H)[0]) / (2.0 * d)
 
 
-LAWS = [law(0.05, 18e-9).log_viscosity for law in VISCOSITY_LAWS.values()]
+def law_of(name, eta0):
+    """A viscosity law, by an alpha of 18/GPa where it has one."""
+    law = VISCOSITY_LAWS[name]
+    return law(eta0) if law is ConstantViscosity else law(eta0, 18e-9)
+
+
+LAWS = [law_of(name, 0.05).log_viscosity for name in VISCOSITY_LAWS]
 LAWS += [oil.law(60.0 + CELSIUS).log_viscosity for oil in OILS.values()]
 
 
@@ -28,9 +34,11 @@ def test_slopes_match_central_differences(law):
 def test_viscosity_law_starts_at_eta0_with_slope_alpha(name):
     """ln(eta*) = 0 and d ln(eta*)/dp = alpha at p = 0, whatever eta0."""
     for eta0 in (1e-3, 0.096, 2.0):
-        value, slope = VISCOSITY_LAWS[name](eta0, 18e-9).log_viscosity(np.zeros(1), P_H)
+        law = law_of(name, eta0)
+        value, slope = law.log_viscosity(np.zeros(1), P_H)
         assert value[0] == 0.0
-        assert np.ravel(slope)[0] == pytest.approx(18e-9 * P_H, rel=1e-13)
+        assert np.ravel(slope)[0] == pytest.approx(law.pressure_viscosity * P_H, rel=1e-13)
+        assert law.pressure_viscosity == (0.0 if name == "constant" else 18e-9)
 
 
 def test_roelands_at_a_known_pressure():
