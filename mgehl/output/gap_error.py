@@ -35,10 +35,9 @@ So wide are bands of line contacts that touch, too, where all oil has to pass ev
 nanometre. Of 14 to 16 about a number on 513 nodes, beside 2049 (a list of another hand), 5 about the gap by
 pressure were too narrow, by up to 3.9 times; 2 about loads though so wide already, by 1.8 at the most."""
 
-WIDEST_OF = dict.fromkeys(("mean_nm", "loaded_nm", "friction", "rolling"), WIDEST) | dict.fromkeys(
-    ("contact_load_share", "solid_load_fraction"), WIDEST_SHARE
-)
-"""What hangs on the film, and from where on a band about it tells nothing: over itself, or of loads."""
+SHARES = "contact_load_share", "solid_load_fraction"
+OF_THE_FILM = "mean_nm", "loaded_nm", "friction", "rolling", *SHARES
+"""Bands about parts of the load, and all that hang on the film."""
 
 SMALLEST = 1e-4
 """Half-width at the least, over the gap or pressure, or in parts of the load."""
@@ -175,7 +174,7 @@ def from_grids(grids):
 def by_unseen_inlet(error, finest):
     """A `GapError` of grids that do not see the inlet: all of it is wider that hangs on the film."""
     unseen = "the inlet has less than half a cell"
-    found = _wider(error, finest, WIDEST_OF, f"but for the pressure: {unseen}")
+    found = _wider(error, finest, OF_THE_FILM, f"but for the pressure: {unseen}")
     if error.mean_nm is not None and found.mean_nm is None:
         return no_band(f"{unseen}: the grid decides what is film")
     return found
@@ -183,7 +182,7 @@ def by_unseen_inlet(error, finest):
 
 def by_ridges(error, finest):
     """A `GapError` of a line contact that touches: bands about all that hangs on its ridges are wider."""
-    names = "loaded_nm", "friction", "contact_load_share", "solid_load_fraction"
+    names = "loaded_nm", "friction", *SHARES
     where = "about loads, friction and the gap by pressure: no oil flows around a ridge that touches"
     return _wider(error, finest, names, where)
 
@@ -201,8 +200,7 @@ def _wider(error, finest, names, where):
 
 def _widest(name, finest):
     """From where on a band about a number of the finest grid tells nothing."""
-    part, of_load = WIDEST_OF[name], WIDEST_OF[name] == WIDEST_SHARE
-    return part if of_load else part * abs(getattr(finest, name))
+    return WIDEST_SHARE if name in SHARES else WIDEST * abs(getattr(finest, name))
 
 
 def half_width(value, coarser, apart, touches=False):
