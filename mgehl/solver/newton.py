@@ -233,7 +233,8 @@ class Newton(PythonSnes):
 
     def _form_jacobian(self, _snes, x, _J, _preconditioner):
         """Linearise at x, for the linear system that is posed."""
-        self._multigrid.linearise(self._evaluated(x), *self._posed, self._problem.resistance)
+        evaluation, resistance = self._evaluated(x), self._problem.resistance_at(self._space.read(x)[1])
+        self._multigrid.linearise(evaluation, *self._posed, resistance)
 
     def _evaluated(self, x):
         """The `Evaluation` at x: of the present state it is known, anything else takes a convolution."""

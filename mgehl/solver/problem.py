@@ -229,7 +229,12 @@ class ContactProblem(Problem):
     def squeezed_beyond(self, H0):
         """The load that oil carries beyond the domain where the step that is taken squeezes it out, in
         units of the integral of P."""
-        return self.resistance * (self.H0_before - H0)
+        return self.resistance_at(H0) * (self.H0_before - H0)
+
+    def resistance_at(self, H0):
+        """The resistance at an H0: of bodies that part none, where film tears as soon as it is sucked."""
+        parts = H0 > self.H0_before and not self.contact.held
+        return 0.0 if parts else self.resistance
 
     def share_of_load(self, P, nodes):
         """Part of the load as it is now that some nodes carry, a mask (lines, nx)."""

@@ -107,6 +107,7 @@ def test_oil_that_is_squeezed_out_beyond_the_domain_carries(
     problem = make_problem(nodes=17, coarsest=17)
     state, (dP, dH0) = rough_state(problem, contact=False), direction(problem)
     Beyond(problem).resist(state, 1e-3, 1.0)
+    problem.H0_before += 0.1
     jacobian = make_jacobian(problem, state)
     jacobian.resistance = problem.resistance
     r, border = apply(jacobian, make_vec, dP, dH0)
