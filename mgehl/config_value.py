@@ -46,7 +46,7 @@ _PRINTED = (
 """How data sheets print units that pint reads in another form: mPa·s, mm²/s, mm s-1, W/(m K), mPas,
 kg/m3, mPa.s, Ns/m2, r/min, 1/min, and the angstrom's sign."""
 
-_PERCENT = re.compile(r"\s*([-+]?\d*\.?\d+)\s*%\s*")
+_PERCENT = re.compile(r"\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?)\s*%\s*")
 
 EXAMPLES = {"K": "60 degC", "rad/s": "6000 rpm"}
 """Values of units that people seldom say in SI."""
@@ -140,9 +140,9 @@ def _number(key, rules, given):
     value = given
     if isinstance(value, str) and rules["unit"] is not None:
         value = _with_unit(key, rules["unit"], value, rules["instead"])
-    elif isinstance(value, str) and (percent := _PERCENT.fullmatch(value)):
-        value = 0.01 * float(percent[1])
     is_whole = rules["kind"] is int
+    if isinstance(value, str) and not is_whole and (percent := _PERCENT.fullmatch(value)):
+        value = 0.01 * float(percent[1])
     if not _is_number(value) or (is_whole and value != int(value)) or not _in_range(rules, value):
         wrong = given if _is_number(value) else value
         raise ConfigError(f"{key} = {shown(wrong)}: must be {_describe_range(rules)}")

@@ -610,3 +610,28 @@ def test_friction_beyond_the_domain_is_that_of_the_steady_state():
     )
     assert after.rolling_beyond == pytest.approx(steady.rolling_beyond) != 0.0
     assert after.sliding_beyond == pytest.approx(steady.sliding_beyond) != 0.0
+
+
+LIGHT = {
+    "contact.radius_x": 0.01, "contact.reduced_modulus": 220e9, "lubricant.viscosity": 0.1,
+    "lubricant.pressure_viscosity": 15e-9, "contact.boundary_film": 2e-9, "time.end": 2e-6,
+    "solver.error": False,
+}  # fmt: skip
+A_LINE = {"contact.kind": "line", "motion.speed": 1.0, "grid.nodes": 257, "grid.x": [-40.0, 20.0]}
+A_BALL = {
+    "contact.radius_y": 0.01,
+    "motion.speed": 0.5,
+    "grid.nodes": 65,
+    "grid.x": [-8.0, 5.0],
+    "grid.y": [-6.0, 6.0],
+}
+
+
+@pytest.mark.parametrize(
+    "kind, key, load", [(A_LINE, "contact.load_per_length", 3e3), (A_BALL, "contact.load", 10.0)]
+)
+def test_a_load_that_leaps_stays_a_load(kind, key, load, course):
+    """What a line squeezes out beyond its domain was fed by itself: 1600 GPa, and no step settled."""
+    leaps = {key: course((0.0, load), (1e-7, 2.0 * load), (1.0, 2.0 * load))}
+    after = mgehl.solve(mgehl.Config().with_(LIGHT | kind | leaps))
+    assert after.summary.converged and column(after, "max_pressure_GPa").max() < 1.0

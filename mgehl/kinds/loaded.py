@@ -178,7 +178,7 @@ class LoadedKind(Kind):
 
     def scalars(self, solution):
         """Load, films, gaps of rough bodies, pressure and groups; bands where there are any."""
-        result, (speed, contact) = solution.result, time.driven(solution)
+        result, config, (speed, contact) = solution.result, solution.config, time.driven(solution)
         error, mixed, groups = result.error, result.mixed, contact.unheated.groups
         gaps = mixed if mixed and mixed.mean_gap_nm is not None else None
         gap_error = gaps.error if gaps else None
@@ -195,12 +195,15 @@ class LoadedKind(Kind):
             "loaded_gap_error": _nm(gap_error, "loaded_nm"),
             "maximum_pressure_error": _GPa(result, "max_pressure_band_GPa"),
             "maximum_pressure": _GPa(result, "max_pressure_GPa", "largest pressure"),
-            "group_U": (groups.U, "1", "speed parameter U"),
-            "group_W": (groups.W, "1", "load parameter W"),
-            "group_G": (groups.G, "1", "material parameter G"),
-            "moes_M": (groups.M, "1", "load number M of Moes"),
-            "moes_L": (groups.L, "1", "material number L of Moes"),
         }
+        if not time.stands_still(config):
+            found |= {
+                "group_U": (groups.U, "1", "speed parameter U"),
+                "group_W": (groups.W, "1", "load parameter W"),
+                "group_G": (groups.G, "1", "material parameter G"),
+                "moes_M": (groups.M, "1", "load number M of Moes"),
+                "moes_L": (groups.L, "1", "material number L of Moes"),
+            }
         return {name: number for name, number in found.items() if number is not None}
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import atan, pi, sqrt
+from math import pi
 
 from mgehl.model import films
 from mgehl.model.contact import Groups, LoadedContact
@@ -62,14 +62,6 @@ class LineContact(LoadedContact):
     def dry_gap(self, X, _Y):
         """Gap of the Hertz contact in units of H."""
         return hertz_line_gap(X)
-
-    def squeezed_beyond(self, mesh, film):
-        """By the pressure 6 eta R V/h^2 of a film between a parabola and a plane: what lies beyond a side,
-        and half of the domain times what it is there. A thin film parts the halves."""
-        unit, (x, _) = sqrt(2.0 * self.radius_x * film), self.ends(mesh)
-        ends = [abs(end) / unit for end in x]
-        missing = sum(0.5 * atan(1.0 / X) - 0.5 * X / (1.0 + X**2) + X / (1.0 + X**2) ** 2 for X in ends)
-        return 6.0 * self.lubricant.viscosity * self.radius_x * missing * unit / film**2
 
     def drag_beyond(self, mesh, downstream=False):
         """By the film between the cylinders as they are pressed."""

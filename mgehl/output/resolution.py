@@ -207,7 +207,7 @@ def domain_words(verdict, lost):
     if verdict == UNKNOWN:
         return "not judged: made by an older version"
     if verdict == STANDS:
-        return "what is squeezed out beyond it is counted, as between rigid bodies"
+        return "of a point contact what is squeezed out beyond it is counted, as between rigid bodies"
     if verdict == SUFFICIENT:
         return f"sufficient: twice the size would change the film by some {lost:.1f} %"
     return (

@@ -6,8 +6,8 @@ from mgehl.output.friction_result import strength_lines
 ALIKE = 1e-4
 """Part of a mean below which its band is not told."""
 
-BEYOND = 5e-4
-"""Part of the load beyond the domain that is told."""
+BEYOND, MUCH = 5e-4, 5.0
+"""Part of the load beyond the domain that is told, and per cent from which on a larger one is advised."""
 
 SPIKE = "a spike that three nodes do not hold"
 """What a largest pressure is beyond `NARROW`."""
@@ -34,7 +34,8 @@ def time_lines(time):
     if abs(time.squeezed_beyond) >= BEYOND:
         most, out = 100.0 * abs(time.squeezed_beyond), time.squeezed_beyond > 0.0
         what = "carried by what is squeezed out" if out else "added by what is sucked in"
-        yield f"up to {most:.1f} % of the load is {what} beyond the domain"
+        larger = "; a larger domain tells more surely" if most >= MUCH else ""
+        yield f"up to {most:.1f} % of the load is {what} beyond the domain{larger}"
     if time.error and (time.means or time.whole):
         has_bands = time.error.means or time.error.whole
         yield f"{'bands' if has_bands else 'no band'} of means: {time.error.how}"

@@ -108,7 +108,6 @@ def test_a_sphere_whose_oil_is_squeezed_out_beyond_its_domain(wide):
     assert rate_of_a_sphere(wide, counted=None) == pytest.approx(1.0, abs=2e-3)
 
 
-@pytest.mark.parametrize("wide", [3.5, 14.0])
-def test_a_cylinder(wide):
-    """The load beyond the domain, of the narrow one 4 %, is counted."""
-    assert rate_of_a_cylinder(wide) == pytest.approx(1.0, abs=1e-3)
+def test_a_cylinder():
+    """The load beyond the domain falls with the cube of its width."""
+    assert rate_of_a_cylinder(14.0) == pytest.approx(1.0, abs=1e-3)
