@@ -474,7 +474,7 @@ def test_surfaces_that_stand_still_squeeze_a_film_out(course):
     assert films[-1] < 0.95 * films[0] and (np.diff(films) < 0.0).all()
     assert (column(after, "squeezed_beyond") > 0.0).all()
     result, words = after.summary, str(after)
-    assert result.formulas == {} and result.resolution.verdict == "standing"
+    assert result.groups is None and result.formulas == {} and result.resolution.verdict == "standing"
     assert "none: the surfaces stand still" in words and "passage" not in words
 
 

@@ -93,6 +93,7 @@ def summarise_in_time(problem, outcome, rows, scene, tolerance, making):
         result, converged=settled and not cut, settled=settled, reason=(settled and why) or reason,
         moes_film=moes and MoesFilm(moes * film.central, moes * film.minimum),
         mass=None, flux_imbalance=None, error=OF_AN_INSTANT, time=time,
+        groups=None if scene.stands else result.groups,
         formulas={} if scene.stands else result.formulas,
         thermal_reduction=end.thermal_reduction,
         mixed=result.mixed and replace(result.mixed, lambda_ratio=end.lambda_ratio),

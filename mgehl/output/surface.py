@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from math import inf, isfinite, isinf
 
 from mgehl.kinds.surface import parts_of
+from mgehl.kinds.time import stands_still
 from mgehl.model.surface import Measured
 
 RESOLVED_NODES, SEEN_NODES = 8.0, 4.0
@@ -74,7 +75,7 @@ def surface_lines(config, contact, mesh):
     rms, shortest = contact.roughness, contact.shortest_wave(mesh)
     nodes = shortest / contact.longest_cell(mesh)
     begun = " at the beginning" if config.is_in_time else ""
-    film = "" if config.is_dry else _film_over(contact)
+    film = "" if config.is_dry or stands_still(config) else _film_over(contact)
     heights = f"Sq {1e9 * rms:.4g} nm   Ssk {contact.skewness:.3g}"
     yield f"surface    {heights} (within the Hertz contact{begun}){film}"
     verdict = surface_verdict(contact, nodes)
