@@ -133,8 +133,7 @@ def of_formulas(config):
 def reference(config, key):
     """A number for the value of a key that may be a course: its largest size until time.end.
 
-    Of the angle the first one; of the load, too, if there is any. Of surfaces that stand still throughout
-    `UNIT_OF_REST`: lengths and times are in units of a motion.
+    Of the angle the first one; of the load, too, if there is any. Of surfaces that stand still a unit.
     """
     value, (least, most) = config.value(key), range_of(config, key)
     if key == "motion.speed":
@@ -147,8 +146,7 @@ def reference(config, key):
 
 def stands_still(config):
     """Whether the surfaces do throughout a run in time: what flows is squeezed."""
-    is_driven = config.moes.M is None and config.is_in_time
-    return is_driven and not any(range_of(config, "motion.speed"))
+    return config.is_in_time and config.moes.M is None and not any(range_of(config, "motion.speed"))
 
 
 def check_motion(config):
@@ -158,8 +156,8 @@ def check_motion(config):
         return
     if config.time.end is None or speed > 0.0:
         still = '; bodies stand still in time (time.end), or where discretization.contact_model = "dry"'
-        may = still if config.kind.is_loaded else ""
-        raise ConfigError(f"motion.speed = {speed:g}: must be at least {SLOWEST:g}{may}")
+        more = still if config.kind.is_loaded else ""
+        raise ConfigError(f"motion.speed = {speed:g}: must be at least {SLOWEST:g}{more}")
 
 
 def check_courses(config):

@@ -254,7 +254,7 @@ def _nodes(result):
 
 
 ADVICE = {
-    STANDS: "none: the surfaces stand still, and oil is squeezed out or in",
+    STANDS: "none: the surfaces stand still, and oil is squeezed out or drawn in",
     "resolved": "resolved",
     "starved": "enough, but the domain is too small for the film",
     "coarse": f"coarse (below {RESOLVED_CELLS:g}): expect the film to change with the grid",

@@ -268,5 +268,8 @@ def test_a_rotation_is_read_as_catalogues_print_it(unit):
     assert of(STEEL | body).body_1.rotation == pytest.approx(200.0 * pi)
 
 
-def test_slip_may_be_given_in_per_cent():
-    assert of({"motion.slide_to_roll": "20 %"}).motion.slide_to_roll == pytest.approx(0.2)
+@pytest.mark.parametrize("said", ["20 %", "20%", "2e1 %"])
+def test_slip_may_be_given_in_per_cent_and_a_whole_number_may_not(said):
+    assert of({"motion.slide_to_roll": said}).motion.slide_to_roll == pytest.approx(0.2)
+    with pytest.raises(ConfigError, match="must be a whole number"):
+        of({"grid.nodes": "6500 %"})
