@@ -103,7 +103,7 @@ SHOWN_grid := *.png
 SHOWN_moving := *.png
 SHOWN_solids := *.png
 SHOWN_stribeck := stribeck.png
-SHOWN_transition := *.png
+SHOWN_transition := *figure-14.png
 studies: $(STUDIES:%=study-%)
 study-%: $(ENVIRONMENT)
 	( $(ON) mpiexec -n 2 python -m mgehl study $* $(WITH_$*) --resume --quiet ); test $$? -le 1

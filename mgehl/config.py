@@ -11,7 +11,7 @@ from pathlib import Path
 from mgehl import config_sections as sections
 from mgehl.config_file import default_config, nested, read_toml
 from mgehl.config_mistakes import check_section, check_together, closest, closest_key, naming_words
-from mgehl.config_value import read_value, shown
+from mgehl.config_value import chosen, read_value, shown
 from mgehl.errors import ConfigError
 from mgehl.kinds import KINDS, choices, derived
 from mgehl.kinds.bodies import BodySection
@@ -181,7 +181,7 @@ def read_tables(path=None, settings=()):
             f"{shown(path)}: must be the path of a configuration; keys are for mgehl.load(settings=...)"
         )
     path = Path(path) if path else default_config()
-    tables = read_toml(path)
+    tables = _in_our_words(read_toml(path))
     _anchor(tables, path.parent)
     return _set_anew(tables, settings)
 
@@ -189,7 +189,7 @@ def read_tables(path=None, settings=()):
 def _set_anew(tables, settings):
     """Nested values with settings laid over them; keys that a setting leaves without a meaning go. What
     those gave beside it stays, as a number. Raises ConfigError."""
-    given = nested(settings)
+    given = _in_our_words(nested(settings))
     laid = _laid(_laid(tables, _left_alone(tables, given)), given)
     for section, _, key in (word.partition(".") for word in left_over(tables, laid, given)):
         laid[section].pop(key, None)
@@ -231,6 +231,14 @@ def _laid(tables, given):
         check_section(section, laid.setdefault(section, {}))
         laid[section] |= table
     return laid
+
+
+def _in_our_words(tables):
+    """Nested values in which a choice written in another way ("Line", "Si3N4") is the key's own."""
+    for key, field in KEYS.items():
+        if (word := chosen(field.metadata, value_of(tables, key))) is not None:
+            tables[key.partition(".")[0]][field.name] = word
+    return tables
 
 
 def _anchor(tables, directory):

@@ -38,13 +38,13 @@ _PRINTED = (
     (re.compile(r"(?<=[A-Za-z])\.(?=[A-Za-z])"), lambda _: "*"),
     (re.compile(r"\b(m?)Pas\b"), lambda m: f"{m[1]}Pa*s"),
     (re.compile(r"\bNs\b"), lambda _: "N*s"),
-    (re.compile(r"(?<=\d)\s*(?:(?:r|U|rev|\s1)?/min|\smin\^-1)$"), lambda _: " rpm"),
+    (re.compile(r"(?<=\d)\s*(?:(?:r|U|rev|\s1)? ?/ ?min|\smin\^-1|RPM|U[Pp][Mm])$"), lambda _: " rpm"),
     (re.compile("[\u00c5\u212b]"), lambda _: "angstrom"),
     (re.compile(r"(?<=/)\s*(?:°C|degC)\b"), lambda _: "K"),  # a difference
     (re.compile(r"(?<=[WJ]) */ *(m|kg|m\^?3)[ *]*K\b"), lambda m: f"/{m[1].replace('m3', 'm^3')}/K"),
 )
 """How data sheets print units that pint reads in another form: mPa·s, mm²/s, mm s-1, W/(m K), mPas,
-kg/m3, mPa.s, Ns/m2, r/min, 1/min, and the angstrom's sign."""
+kg/m3, mPa.s, Ns/m2, r/min, 1/min, RPM, Upm, and the angstrom's sign."""
 
 _PERCENT = re.compile(r"\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?)\s*%\s*")
 
@@ -75,10 +75,11 @@ def whole(default, help, low, high=None):
     return _key(default, help, int, low=low, high=high)
 
 
-def word(default, help, choices=None, own=None, own_name=OWN):
-    """A key with one of some words, or with what `own` reads, called `own_name` in messages."""
+def word(default, help, choices=None, own=None, own_name=OWN, also=None):
+    """A key with one of some words, or with what `own` reads, called `own_name` in messages. `also` has
+    other names of the words."""
     words = (*(choices or ()), *([own_name] if own else []))
-    return _key(default, help, str, choices=choices, own=own, words=words)
+    return _key(default, help, str, choices=choices, own=own, words=words, also=also or {})
 
 
 def switch(default, help):
@@ -91,7 +92,11 @@ def interval(default, help):
     return _key(default, help, tuple, words=(AUTO,))
 
 
-_RULES = dict.fromkeys(("unit", "above", "low", "high", "choices", "own")) | {"instead": "", "words": ()}
+_RULES = dict.fromkeys(("unit", "above", "low", "high", "choices", "own")) | {
+    "instead": "",
+    "words": (),
+    "also": {},
+}
 
 
 def _key(default, help, kind, **rules):
@@ -109,13 +114,9 @@ def shown(value):
 
 def read_value(key, rules, value):
     """The value that `value`, as read from TOML, stands for. Raises ConfigError."""
-    kind, choices = rules["kind"], rules["choices"] or ()
-    if isinstance(value, str) and (sign := value.replace("\u03bc", "\u00b5")) in choices:
-        value = sign
-    if kind is str and isinstance(value, str):
-        for word in choices:
-            if word.casefold() == value.casefold():
-                return word
+    kind = rules["kind"]
+    if (word := chosen(rules, value)) is not None:
+        return word
     if rules["own"] and (own := rules["own"](value)):
         return own
     if kind is float or kind is int:
@@ -125,6 +126,20 @@ def read_value(key, rules, value):
     if kind is bool and isinstance(value, bool | np.bool_):
         return bool(value)
     raise ConfigError(f"{key} = {shown(value)}: must be {describe_rules(rules)}")
+
+
+def chosen(rules, value):
+    """The one of a key's words that a value is; None if it is none of them."""
+    if rules["kind"] is not str or not isinstance(value, str):
+        return None
+    names = {_plain(word): word for word in (*rules["also"], *(rules["choices"] or ()))}
+    word = names.get(_plain(value))
+    return rules["also"].get(word, word)
+
+
+def _plain(word):
+    """A word as people type it: in letters of either size, with or without spaces and hyphens."""
+    return re.sub(r"[\s_-]", "", word.replace("\u03bc", "\u00b5")).casefold()
 
 
 def read_quantity(name, text, unit):

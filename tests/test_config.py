@@ -308,12 +308,29 @@ def test_a_pad_is_described_in_one_way(key):
     assert config.wedge.by_films and "slope" not in config.as_toml_tables()["wedge"]
 
 
-@pytest.mark.parametrize("kind", ["line", "wedge"])
+@pytest.mark.parametrize("kind", ["line", "Wedge"])
 def test_a_kind_that_is_set_pushes_out_what_the_file_says_of_another(kind):
     """The default file is a point contact's."""
     config = load_config(settings=[f"contact.kind={kind}", "grid.nodes=65"])
-    assert config.contact.kind == kind
+    assert config.contact.kind == kind.lower()
     assert config.contact.load == Config().contact.load
+
+
+@pytest.mark.parametrize(
+    ("setting", "value"),
+    [
+        ("body_1.material=100Cr6", "steel"),
+        ("body_1.material=si3n4", "silicon nitride"),
+        ("body_1.material=cast-iron", "cast iron"),
+        ("lubricant.oil=PAO 100", "PAO100"),
+        ("lubricant.viscosity_law=Constant", "constant"),
+    ],
+)
+def test_a_choice_may_be_written_as_people_write_it(setting, value):
+    key = setting.partition("=")[0]
+    beside = [f"body_{i}.material=steel" for i in (1, 2)] if "material" in key else []
+    beside += ["lubricant.temperature=60 degC"] if "oil" in key else []
+    assert with_settings(*beside, setting).value(key) == value
 
 
 class TestPipes:

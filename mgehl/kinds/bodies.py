@@ -10,7 +10,7 @@ from math import inf, pi, sqrt
 from mgehl.config_value import number, word
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Derived
-from mgehl.model.materials import MATERIALS, reduced_modulus
+from mgehl.model.materials import ALSO, MATERIALS, reduced_modulus
 
 BODIES = "body_1", "body_2"
 
@@ -25,7 +25,7 @@ SMALLEST_RADIUS = 1e-7
 class BodySection:
     # fmt: off
     material: str | None = word(None, "what it is made of, for Young's modulus and Poisson's ratio",
-        tuple(MATERIALS))
+        tuple(MATERIALS), also=ALSO)
     modulus: float | None = number(None, "Young's modulus, where material does not tell it", "Pa", 1e3,
         1e13)
     poisson: float | None = number(None, "Poisson's ratio, beside modulus", low=0.0, high=0.5)

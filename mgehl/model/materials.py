@@ -27,6 +27,18 @@ MATERIALS = {
 }
 """By their names; beside them how far makers and grades differ."""
 
+ALSO = {
+    "100Cr6": "steel",
+    "AISI 52100": "steel",
+    "52100": "steel",
+    "16MnCr5": "steel",
+    "aluminum": "aluminium",
+    "Si3N4": "silicon nitride",
+    "WC": "tungsten carbide",
+    "BK7": "glass",
+}
+"""Other names of theirs."""
+
 
 def reduced_modulus(first, second):
     """E' of 2/E' = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2; each body is its (E in Pa, nu)."""

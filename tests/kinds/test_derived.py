@@ -260,7 +260,8 @@ def test_a_constant_viscosity_answers_to_no_pressure():
 
 
 @pytest.mark.parametrize(
-    "unit", [" rpm", " 1/min", "/min", " U/min", " min-1", " r/min", " min\u207b\u00b9"]
+    "unit",
+    [" rpm", "RPM", " 1/min", " 1 / min", "/min", " U/min", "Upm", " min-1", " r/min", " min\u207b\u00b9"],
 )
 def test_a_rotation_is_read_as_catalogues_print_it(unit):
     """1/min was of what, turns or radians."""
