@@ -5,6 +5,7 @@ Every mistake is one line that names the key, the value and what is allowed (`Co
 
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, fields, replace
+from math import pi
 from os import PathLike
 from pathlib import Path
 
@@ -167,11 +168,15 @@ def load_config(path=None, settings=()):
 
 def not_given(config, tables):
     """{key: words} of the `physics` of a `Config` that its tables do not give: the paper's are taken, but
-    of line contacts, of which the paper has none, a default."""
+    of line contacts, of which the paper has none, a default. And of rotations that tell no unit."""
     known = {each.key for each in config.derived}
     missing = (key for key in config.physics if key not in known and value_of(tables, key) is None)
     whose = {key: "the default" if key == "contact.load_per_length" else "the paper's" for key in missing}
-    return {key: f"{key}: {config.said(key)} is {words}" for key, words in whose.items()}
+    words = {key: f"{key}: {config.said(key)} is {words}" for key, words in whose.items()}
+    for key in (key for key, field in KEYS.items() if field.metadata["unit"] == "rad/s"):
+        if (omega := value_of(tables, key)) and not isinstance(omega, str):
+            words[key] = f"the unit of {key}: rad/s is taken, which makes {30.0 / pi * omega:.4g} rpm"
+    return words
 
 
 def read_tables(path=None, settings=()):

@@ -14,7 +14,6 @@ example: mgehl sweep --set grid.nodes=65 --set solver.start=film --over motion.s
 import re
 from contextlib import suppress
 from pathlib import Path
-from shlex import quote
 
 from mgehl.commands import CONVERGED, NOT_CONVERGED, add_configuration, add_results, add_settings
 from mgehl.config import load_config, not_given, read_tables
@@ -52,7 +51,7 @@ def execute(options, comm):
     if comm.rank == 0 and not options.quiet:
         _say_what(points, read_tables(file, options.settings), [axis.key for axis in axes])
     asked = (*(f"--over {word}" for word in options.over), *options.settings)
-    with StopWhenTold(f"go on with --resume, --out {quote(str(directory))}") as stop:
+    with StopWhenTold("go on with the same command and --resume") as stop:
         study = swept(directory, comm, axes, points, Watch(stop=stop), not options.quiet, asked)
     return NOT_CONVERGED if study.failures else CONVERGED
 

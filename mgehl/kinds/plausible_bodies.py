@@ -7,7 +7,8 @@ from mgehl.model.lubricant import USUAL_CONDUCTIVITY
 
 COMPRESSED = 0.2
 """Part of a layer's thickness by which the dry contact presses it from which on strains are not small: a
-layer that gives way to a paraboloid alone does so by half the square of the contact's radius over R."""
+layer that gives way to a paraboloid alone does so by half the square of the contact's radius over R. None
+gives way by more than one that is free at its sides."""
 
 
 def implausible_layer(contact):
@@ -16,7 +17,8 @@ def implausible_layer(contact):
     if not isinstance(layer, Coating):
         return
     radius = min(contact.radius_x, contact.radius_y)
-    pressed = 0.5 * contact.widening**2 * contact.film_scale
+    free = contact.hertz.p_h / contact.widening**2 / layer.modulus * layer.thickness
+    pressed = min(0.5 * contact.widening**2 * contact.film_scale, free)
     if pressed > COMPRESSED * layer.thickness:
         yield (
             f"the dry contact presses a layer of {1e6 * layer.thickness:.3g} um by some "

@@ -101,7 +101,7 @@ def with_recorded(tables, courses):
 def _in_si(name, heading, unit):
     """The unit that a column's heading tells, in SI; 1 where it is but a name. Raises ConfigError."""
     words = unit_words(heading)
-    is_name = heading in words and "/" not in heading
+    is_name, tells = heading in words and "/" not in heading, "tells no unit of its column"
     for found in words:
         if found == heading and len(found) == 1 and found not in SINGLE:
             continue
@@ -109,13 +109,12 @@ def _in_si(name, heading, unit):
             return read_quantity(name, f"1 {found}", unit)
         except WrongUnitError:
             is_name = is_name and len(found) == 1  # t is a tonne, too
+            tells = f"tells the unit {found!r}"
         except ConfigError:
             continue
     if is_name:
         return 1.0
-    raise ConfigError(
-        f"{name}: its heading {heading!r} tells no unit of its column; must be such as [{unit}]"
-    )
+    raise ConfigError(f"{name}: its heading {heading!r} {tells}; must be such as [{unit}]")
 
 
 def of_first_load(config):

@@ -30,6 +30,9 @@ _DECIMAL_COMMA = r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?"
 COMMA_AND_BLANK = ", "
 """Between numbers with decimal commas: 0,29, 0,31."""
 
+UNIT_ALONE = re.compile(r"[\[(]?(?:[kmunpµ\u03bc]?[msN]|min|inch|deg|°|k?N/m?m|k?m/[sh]|mm/s)[\])]?")
+"""A cell of a line of units below that of names."""
+
 _LIKE_A_NUMBER = r"[-+]?\d[\d.,' ]*"
 """Of digits, but maybe no number: 1,234.56."""
 
@@ -115,18 +118,25 @@ def value_of(word):
 
 def _heading(above, columns, separator):
     """Words of the last heading that has as many as there are columns."""
+    units = None
     for line in reversed(above):
         in_brackets = re.findall(r"[^\[(]+[\[(][^\])]*[\])]", line)
         for cells in (*(_words(line, each) for each in (separator, ";", "\t", ",")), in_brackets):
             while cells and not cells[-1]:
                 cells.pop()
-            if len(cells) == columns:
+            if len(cells) != columns:
+                continue
+            if units:
+                return [f"{cell} [{unit}]" for cell, unit in zip(cells, units, strict=True)]
+            if not all(map(UNIT_ALONE.fullmatch, cells)):
                 return cells
-    return None
+            units = [cell.strip("[]()") for cell in cells]
+            break
+    return units and [f"[{unit}]" for unit in units]
 
 
 def _top(above, columns, separator):
-    first, *others = _words(above[-1], separator) if above else [""]
+    first, *others = (above and _words(above[-1], separator)) or [""]
     if len(others) + 1 != columns or not others or not all(map(_is_number, others)):
         return None
     return [np.nan, *map(value_of, others)]

@@ -51,6 +51,12 @@ def _tries(solution):
         yield "solver.max_steps: a higher one, where the residual still falls"
         yield "grid.nodes: another number of nodes"
         return
+    solver, default = config.solver, type(config.solver)()
+    more = f"more than {solver.max_steps}, {solver.max_work}, where the residual still falls"
+    more = f"solver.max_steps, solver.max_work: {more}"
+    is_short = solver.max_steps < default.max_steps or solver.max_work < default.max_work
+    if is_short:
+        yield more
     nodes, resolution = config.grid.nodes, result.resolution
     if resolution.surface in (surface.COARSE, surface.GRIDS):
         yield f"grid.nodes = {2 * nodes - 1}, or a surface without its short waves"
@@ -65,8 +71,8 @@ def _tries(solution):
         yield OTHER[config.solver.start]
     if NOR not in result.reason:
         yield "--start-from RUN: from a run at a higher speed that converged; so step by step down"
-    steps, work = config.solver.max_steps, config.solver.max_work
-    yield f"solver.max_steps, solver.max_work: more than {steps}, {work}, where the residual still falls"
+    if not is_short:
+        yield more
 
 
 def _of_domain(solution):

@@ -6,6 +6,7 @@ import numpy as np
 
 from mgehl.discretization.status import is_fluid
 from mgehl.model.flash import has_temperatures
+from mgehl.output.digits import with_band
 from mgehl.output.film_error import UNSETTLED
 from mgehl.solver.gaps import gaps
 from mgehl.solver.heat import rise_of
@@ -189,8 +190,10 @@ def friction_lines(friction, verbose):
     unit = "/m" if friction.per_metre else ""
     beyond = friction.rolling_beyond
     more = f" (and {beyond:.2g} beyond the domain, were it flooded)" if beyond else ""
-    band = f" ± {friction.rolling_band:.2g}" if friction.rolling_band else ""
-    rolling = f"rolling takes {friction.rolling_coefficient:.3g}{band} of the load on each body{more}"
+    rolling = f"{friction.rolling_coefficient:.3g}"
+    if friction.rolling_band:
+        rolling = with_band(friction.rolling_coefficient, friction.rolling_band)
+    rolling = f"rolling takes {rolling} of the load on each body{more}"
     if not friction.slide_to_roll:
         yield f"no sliding friction: motion.slide_to_roll is 0, or not given; {rolling}"
         return
@@ -213,8 +216,9 @@ def friction_lines(friction, verbose):
 
 def coefficient_words(friction):
     """The coefficient with its band."""
-    band = f" ± {friction.coefficient_band:.2g}" if friction.coefficient_band else ""
-    return f"{friction.coefficient:.5f}{band}"
+    if friction.coefficient_band:
+        return with_band(friction.coefficient, friction.coefficient_band)
+    return f"{friction.coefficient:.5f}"
 
 
 def strength_lines(shear_MPa):

@@ -6,7 +6,7 @@ import pytest
 from places import CONFIGS
 from told import refusal
 
-from mgehl.config import KEYS, ConfigError, config_from_tables, load_config
+from mgehl.config import KEYS, ConfigError, config_from_tables, load_config, not_given
 from mgehl.kinds import contact_from
 from mgehl.kinds.bodies import arms
 from mgehl.kinds.derived import EITHER, FOLLOWS, NEEDS
@@ -267,6 +267,17 @@ def test_a_rotation_is_read_as_catalogues_print_it(unit):
     """1/min was of what, turns or radians."""
     body = {"body_1.diameter": "10 mm", "body_1.rotation": f"6000{unit}", "body_2.speed": 0}
     assert of(STEEL | body).body_1.rotation == pytest.approx(200.0 * pi)
+
+
+@pytest.mark.parametrize(
+    "said, is_told", [(6000, True), ("6000 rpm", False), ("628 rad/s", False), (0, False)]
+)
+def test_a_rotation_without_a_unit_is_said_to_be_one_of_radians(said, is_told):
+    tables = {"body_1": {"rotation": said}}
+    told = not_given(
+        of(STEEL | {"body_1.diameter": "10 mm", "body_1.rotation": 1.0, "body_2.speed": 0}), tables
+    )
+    assert ("rad/s is taken, which makes 5.73e+04 rpm" in told.get("body_1.rotation", "")) is is_told
 
 
 @pytest.mark.parametrize("said", ["20 %", "20%", "2e1 %"])

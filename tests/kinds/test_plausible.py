@@ -66,6 +66,13 @@ def test_what_is_unusual_is_named(settings, words):
     assert any(words in line for line in found), found
 
 
+@pytest.mark.parametrize("modulus", ["206 GPa", "50 GPa"])
+def test_a_hard_layer_is_hardly_pressed(modulus):
+    """The paraboloid is pressed into the substrate; of the layer that was said."""
+    layer = LAYER | {"coating.thickness": "2 um", "coating.modulus": modulus, "contact.load": "30 N"}
+    assert not any("presses a layer" in line for line in odd(BALL | layer))
+
+
 def test_a_run_cites_what_it_used():
     config = load_config(None, OIL | {"body_1.material": "glass", "body_2.material": "steel"})
     found = cited(config, contact_from(config))

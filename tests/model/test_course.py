@@ -26,6 +26,7 @@ def test_a_table_is_straight_between_its_rows(table):
 TEXTS = {
     "commas": "\ufeff# a comment\n0,1\n\n1,2\n",
     "decimal commas between semicolons": "t;v\n0,0;1,25\n0,5;1,5\n1,0;1,75\n",
+    "an empty comment above": "# made by hand\n#\n0 1\n1 2\n",
     "quoted decimal commas between commas": '"0,0","1,25"\n"1,0","1,75"\n',
 }
 

@@ -43,6 +43,11 @@ def test_a_domain_that_cuts_the_contact():
     assert len(alone) == 1 and alone[0].startswith("  grid.x = [")
 
 
+def test_a_limit_that_was_lowered_comes_first():
+    _, first, *_ = advice(["solver.max_work=20"], resolution=Resolution(0.25, "grid-determined", "", 0.1))
+    assert first.startswith("  solver.max_steps, solver.max_work: more than 400, 20")
+
+
 @pytest.mark.parametrize(("squeeze", "told"), [(0.0, True), (10.0, False)])
 def test_peaks_that_touch_are_told_of_shorter_steps(squeeze, told):
     tries = "\n".join(advice([f"solver.squeeze={squeeze}"], recipe={"peaks": "touching"}))

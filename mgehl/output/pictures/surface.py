@@ -75,8 +75,9 @@ def _profile(axes, solution, nm):
 
 
 def _distribution(axes, solution, heights):
-    """The nodes within the Hertz semi-axes, beside the normal distribution of the surface's rms."""
-    nm = 1e9 * _inside(solution, heights).ravel()
+    """The nodes within the Hertz ellipse, beside the normal distribution of the surface's rms."""
+    mesh, reach = solution.mesh, solution.contact.hertz_under(solution.load_share).reach
+    nm = 1e9 * heights[np.hypot(mesh.X[np.newaxis, :], mesh.Y[:, np.newaxis]) <= reach]
     nm -= nm.mean()
     mixed = solution.result.mixed
     rms = mixed.Sq_nm if mixed else solution.result.Sq_nm

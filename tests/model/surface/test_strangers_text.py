@@ -125,6 +125,7 @@ UM, NM = 1e-6, 1e-9
     "heading, dy, position, height",
     [("x (um);y (nm);z (nm)", 1.0, UM, NM), ("X[mm];Y[mm];Height[um]", 1000.0, 1e-3, UM),
      ('"x / µm";"y / µm";"z / µm"', 1000.0, UM, UM),
+     ("X;Y;Z\nµm;nm;pm", 1.0, UM, 1e-12), ("X Y Z\n[mm];[mm];[um]", 1000.0, 1e-3, UM),
      ("made on 1 May\n# x um; y um; z pm", 1000.0, UM, 1e-12), ("x;y;z (counts)", 1000.0, None, None)],
 )  # fmt: skip
 def test_headings_of_points_tell_units(tmp_path, heading, dy, position, height):
@@ -132,6 +133,12 @@ def test_headings_of_points_tell_units(tmp_path, heading, dy, position, height):
     found = read_map(tmp_path / "z.csv")
     assert (found.dx, found.dy) == pytest.approx((1.0, dy))
     assert (found.position_unit, found.height_unit) == (position, height)
+
+
+def test_names_above_a_line_of_units_tell_the_columns(tmp_path):
+    (tmp_path / "z.csv").write_text(f"Y;X;Z\nnm;µm;pm\n{POINTS}")
+    found = read_map(tmp_path / "z.csv")
+    assert (found.dx, found.dy) == pytest.approx((1000.0, 1e-3)) and found.position_unit == UM
 
 
 def test_units_that_contradict_the_configuration_are_refused(tmp_path):
