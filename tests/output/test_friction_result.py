@@ -68,7 +68,7 @@ def test_the_band_of_the_load_on_solids_is_friction_s(found):
     result = banded(found(0.2), by_grids(0.02), 0.1)
     assert result.coefficient_band == pytest.approx(0.002) and not result.is_the_grids
     (line,) = friction_lines(result, verbose=False)
-    assert line.startswith("friction 0.06000 ± 0.002 (newtonian): film 0.05000, solids 0.01000; rolling")
+    assert line.startswith("friction 0.060 ± 0.002 (newtonian): film 0.05000, solids 0.01000; rolling")
 
 
 def test_where_there_is_no_band_at_all_friction_is_the_grid_s_too(found):
