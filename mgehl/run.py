@@ -10,8 +10,9 @@ from mpi4py import MPI
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import Case, case_of, checked_case
 from mgehl.kinds.bodies import arms
+from mgehl.kinds.domain_in_time import with_room_for
 from mgehl.kinds.own import naming_keys
-from mgehl.kinds.time import of_formulas, with_room_for
+from mgehl.kinds.time import of_formulas
 from mgehl.output import files, progress, terminal
 from mgehl.output.checkpoint import Checkpoint, begin_run
 from mgehl.output.diary import Comparison, Diary

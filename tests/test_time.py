@@ -478,6 +478,19 @@ def test_surfaces_that_stand_still_squeeze_a_film_out(course):
     assert "none: the surfaces stand still" in words and "passage" not in words
 
 
+def test_how_a_film_is_squeezed_does_not_hang_on_the_end_of_the_run():
+    """The first step was a two-hundredth of the run: half of the side's film was gone in it."""
+    flows = solved(motion__speed=0.3)
+    short, long = (
+        mgehl.solve(mgehl.load(None, BALL | {"motion.speed": 0.0, "time.end": end}), start=flows)
+        for end in (5e-4, 2e-2)
+    )
+    at, then = column(long, "time_s"), column(short, "time_s")[-1]
+    assert np.interp(then, at, column(long, "minimum_film_nm")) == pytest.approx(
+        column(short, "minimum_film_nm")[-1], rel=0.02
+    )
+
+
 class StopAfter:
     """Stops a run before its step of a number."""
 

@@ -39,7 +39,7 @@ class BodySection:
         "0.515 to 0.53 of ball bearings", above=0.5, high=10.0)
     roughness: float | None = number(None, "rms height Rq, for lambda alone: its heights are not solved",
         "m", 0.0, 1e-3)
-    Ra: float | None = number(None, "mean height Ra in place of roughness, which is taken for 1.25 of it",
+    Ra: float | None = number(None, "mean height Ra in place of roughness, which is taken for 1.2533 of it",
         "m", 0.0, 1e-3)
     speed: float | None = number(None, "speed of its surface as the contact sees it, that of both instead "
         "of motion.speed", "m/s", -1e3, 1e3)

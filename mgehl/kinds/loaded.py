@@ -8,6 +8,7 @@ import numpy as np
 from mgehl.config_value import AUTO, FARTHEST
 from mgehl.kinds import loaded_checks, surface, time
 from mgehl.kinds.bodies import roughness
+from mgehl.kinds.domain_in_time import on_all_sides, reverses
 from mgehl.kinds.friction import check_friction, friction_from, thinning_words
 from mgehl.kinds.heat import check_factor, factor_words, heat_words, heated, solids_from
 from mgehl.kinds.kind import Effort, Kind, kept_together, pressure_unit
@@ -67,8 +68,7 @@ class LoadedKind(Kind):
         if not names:
             return config
         ends = dict(zip("xy", self._domain(config, contact), strict=True))
-        if time.reverses(config):
-            ends = {name: (-max(-end[0], end[1]), max(-end[0], end[1])) for name, end in ends.items()}
+        ends = on_all_sides(config, ends, contact.is_line)
         return replace(config, grid=replace(config.grid, **{name: ends[name] for name in names}))
 
     def _domain(self, config, contact):
@@ -109,7 +109,7 @@ class LoadedKind(Kind):
 
     def _check_in_all_directions(self, config, contact, heaviest):
         """The domain must be large enough for every direction of a run in time, under the heaviest load."""
-        senses, wide = (1.0, -1.0)[: 1 + time.reverses(config)], heaviest.x_scale / contact.x_scale
+        senses, wide = (1.0, -1.0)[: 1 + reverses(config)], heaviest.x_scale / contact.x_scale
         for sense, turned in product(senses, time.towards_all(config, heaviest)):
             loaded_checks.check_domain(config.grid, turned, sense, wide)
 

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mgehl.config_value import AUTO, WrongUnitError, number, read_quantity, word
+from mgehl.config_value import WrongUnitError, number, read_quantity, word
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, given
 from mgehl.kinds.surface_kinds import every_surface, share_of
@@ -232,11 +232,6 @@ def towards_all(config, contact):
     return [contact.turned(angle) for angle in angles]
 
 
-def reverses(config):
-    """Whether the surfaces turn round until time.end."""
-    return config.is_in_time and range_of(config, "motion.speed")[0] < 0.0
-
-
 def begins_at_rest(config):
     """Whether a run in time begins with surfaces at rest: from the dry contact."""
     if not config.is_in_time or config.moes.M is not None:
@@ -282,18 +277,3 @@ def _naming(key, value, found):
         raise ConfigError(f"{key} = {value!r}: {error.what}") from None
     except OwnFunctionError as error:
         raise ConfigError(f"{key} = {error}") from None
-
-
-def with_room_for(start, case, config):
-    """The `Config` of a `Case` in time: where `config` has "auto", its domain holds that of the `Solution`
-    it goes on from, too. Films that are there may be thicker than those of the speeds to come."""
-    ours, theirs, grid = case.contact, start.contact, case.config.grid
-    if start.config.contact.kind != config.contact.kind:
-        return case.config
-    wider = {"x": theirs.x_scale / ours.x_scale, "y": theirs.y_scale / ours.y_scale}
-    ends = {}
-    for name in "x" if ours.is_line else "xy":
-        (first, last), old = (getattr(each, name) for each in (grid, start.config.grid))
-        if getattr(config.grid, name) == AUTO:
-            ends[name] = min(first, wider[name] * old[0]), max(last, wider[name] * old[1])
-    return replace(case.config, grid=replace(grid, **ends))

@@ -156,6 +156,8 @@ class March:
         if not newton.converged:
             self._why = newton.reason
             return None
+        if self._begins_rashly(standing, newton.state) and halvings < HALVINGS - 1:
+            return None
         evaluation = problem.evaluate(newton.state)
         stored, closure = self._account(leg, standing.carried, evaluation)
         error = self._error(standing, t, newton.state)
@@ -166,6 +168,13 @@ class March:
         self._remember(standing)
         speed, load = scene.speed.value(t), scene.load_share(t)
         return Instant(standing.number, t, step, speed, load, newton, stored, closure, halvings)
+
+    def _begins_rashly(self, standing, state):
+        """Whether a first step changes some gap by more than it may."""
+        most, before = self._pace.first_change, standing.state.H
+        if standing.number or most is None:
+            return False
+        return self._problem.grid.count(np.abs(state.H - before) > most * before) > 0
 
     def _leg(self, standing, step, way):
         """The `Leg` of a step in s in which the mean surface goes a way, and the `Reference` after it.

@@ -19,6 +19,9 @@ FIRST_STEPS = 200
 COUNTED = 1000
 """Steps that are counted before a run; after these the run is taken to need as many a second."""
 
+FIRST_CHANGE = 0.1
+"""Part by which a gap may change in the first step between surfaces that stand still."""
+
 AIM = 2e-3
 """Rms of what a step's pressures differ from a straight line in time, over their own rms."""
 
@@ -57,6 +60,12 @@ class Pace:
         if self.fixed:
             return self.scene.most_asked
         return MOST_CELLS_ROUGH if self.scene.moves else MOST_CELLS
+
+    @property
+    def first_change(self):
+        """Part by which a gap may change in the first step: where nothing moves, no cell bounds it. None
+        elsewhere."""
+        return FIRST_CHANGE if self.scene.stands and not self.fixed else None
 
     @property
     def _shortest(self):
@@ -131,6 +140,8 @@ class Pace:
 
 class Retraced:
     """The steps of a march that has ended, two at a time, but for kinks: those of a comparison."""
+
+    first_change = None
 
     def __init__(self, times, scene):
         """`times` are the ends of its steps in s. A kink that was the end of one is met where speed, load

@@ -81,9 +81,9 @@ def film_shear(problem, state):
     P = np.maximum(state.p[here], contact.tears_at)
     thicker = np.broadcast_to(oil.log_viscosity(P[None], p_h)[0], (1, P.size))[0]
     eta = oil.cold_viscosity * np.exp(thicker)
-    at = Conditions(
-        oil.ambient_pressure + p_h * P, eta, shear_rate=speed / (contact.film_scale * gap[here])
-    )
+    # The part of a node that is sheared as oil carries its own part of the load: P presses it.
+    pressed = oil.ambient_pressure + p_h * np.maximum(state.P[here], contact.tears_at)
+    at = Conditions(pressed, eta, shear_rate=speed / (contact.film_scale * gap[here]))
     tau[here] = contact.friction.rheology.shear_stress(at)
     return part * tau
 
