@@ -249,6 +249,12 @@ class Scene:
         return min(speeds) < AT_REST * self.contact.speed
 
     @property
+    def turns_round(self):
+        """Whether the surfaces turn round until the end."""
+        least, most = self.speed.range(self.end)
+        return least < 0.0 < most
+
+    @property
     def stands(self):
         """Whether the surfaces stand still throughout."""
         return not any(self._speeds[1])

@@ -17,8 +17,9 @@ from mgehl.solver.gaps import NARROW
 from mgehl.solver.pace import JUST
 
 PRESSURE = "max_pressure_GPa"
-"""Column that has no band, nor has friction, where a spike that three nodes do not hold may be the largest:
-14 of 16 bands that were too narrow stood there."""
+OF_A_SPIKE = PRESSURE, "friction"
+"""Columns that have no band where a spike that three nodes do not hold may be the largest: 14 of 16 bands
+that were too narrow stood there. Nor have they after a reversal: steps of a cell and more miss its spike."""
 
 OF_FILMS = "central_film_nm", "minimum_film_nm"
 """Columns without bands where the inlet of smooth bodies has less than a cell: no steady film has one."""
@@ -46,15 +47,15 @@ def time_error(result, problem, scene, asked, progress, beside):
         return TimeError(why_not)
     found = from_rows(progress.rows, coarser, scene)
     if result.resolution.is_the_grids and not problem.contact.is_mixed:
-        found = _without_films(found)
+        found = _without(OF_FILMS, found)
     return replace(found, convolutions=progress.convolutions - before)
 
 
-def _without_films(error):
-    """A `TimeError` without bands of `OF_FILMS`."""
+def _without(columns, error):
+    """A `TimeError` without bands of some columns."""
     parts = {name: getattr(error, name) for name in ("means", "whole", "at_the_end")}
     left = {
-        name: {of: half for of, half in part.items() if of not in OF_FILMS} for name, part in parts.items()
+        name: {of: half for of, half in part.items() if of not in columns} for name, part in parts.items()
     }
     return replace(error, **left)
 
@@ -63,12 +64,13 @@ def from_rows(rows, coarser, scene):
     """The `TimeError` that the rows of a `Scene` tell, and those of the coarser grid."""
     gone, pairs = passed(rows, scene), list(_common(rows, coarser))
     of_passage = [pair for k, *pair in pairs if gone[k] > gone[-1] - 1.0 + ROUNDING]
-    return TimeError(
+    error = TimeError(
         f"from the differences to {coarser[-1]['grid']} nodes in {len(coarser)} steps for {len(rows)}",
         means=_half_widths(of_passage) if gone[-1] >= 1.0 else {},
         whole=_half_widths([pair for _, *pair in pairs]) if has_whole(scene) else {},
         at_the_end=_half_widths(of_passage, of_last=True),
     )
+    return _without(OF_A_SPIKE, error) if scene.turns_round else error
 
 
 def _common(rows, coarser):
@@ -98,7 +100,7 @@ def _half_widths(pairs, of_last=False):
         found[name] = None if opens and name in SHARES else half
     crest, pressure = (np.array([row[name] for row, _ in pairs]) for name in ("pressure_crest", PRESSURE))
     if told(crest) > NARROW:
-        found |= dict.fromkeys((PRESSURE, "friction"))  # a spike that three nodes do not hold decides
+        found |= dict.fromkeys(OF_A_SPIKE)  # a spike that three nodes do not hold decides
     elif found[PRESSURE]:
         found[PRESSURE] += told(crest * pressure)
     return {name: half for name, half in found.items() if half is not None}

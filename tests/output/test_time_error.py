@@ -124,6 +124,15 @@ def test_a_spike_that_three_nodes_do_not_hold_leaves_pressure_and_friction_witho
     assert {"max_pressure_GPa", "friction"} <= found.at_the_end.keys()
 
 
+def test_after_a_reversal_pressure_and_friction_have_no_bands(tmp_path):
+    """A line's had 1.228 ± .015 GPa in steps of four cells, and 1.288 in fine ones."""
+    (tmp_path / "speed.csv").write_text(f"0,0.09\n{2.5 * UNIT},-0.09\n{6.0 * UNIT},-0.09\n")
+    turns = scene(motion__speed=str(tmp_path / "speed.csv"))
+    found = from_rows(rows(lambda k: 1.0), rows(lambda k: 1.1, coarse=2), turns)
+    assert {"max_pressure_GPa", "friction"}.isdisjoint(found.at_the_end | found.whole)
+    assert "mean_gap_nm" in found.at_the_end
+
+
 @pytest.fixture(scope="module")
 def passing():
     return mgehl.solve(mgehl.load(None, BALL | DENT))
