@@ -19,7 +19,7 @@ from mgehl.solver.pace import JUST
 PRESSURE = "max_pressure_GPa"
 OF_A_SPIKE = PRESSURE, "friction"
 """Columns that have no band where a spike that three nodes do not hold may be the largest: 14 of 16 bands
-that were too narrow stood there. Nor have they after a reversal: steps of a cell and more miss its spike."""
+that were too narrow stood there. Nor have they after a reversal: long steps miss its spike."""
 
 OF_FILMS = "central_film_nm", "minimum_film_nm"
 """Columns without bands where the inlet of smooth bodies has less than a cell: no steady film has one."""
