@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from mgehl.config import KEYS
 from mgehl.errors import printable
 from mgehl.output.digits import is_number, with_band
 from mgehl.output.quantities import of_what, read_told, told_at
@@ -175,7 +176,7 @@ def _shown(rows, columns, width=10**6):
     for column in columns:
         said = [row[column] for row in rows if row[column]]
         right = bool(said) and all(map(is_number, said))
-        table.add_column(Text(column), justify="right" if right else "left", overflow="fold")
+        table.add_column(Text(headed(column)), justify="right" if right else "left", overflow="fold")
     for row in rows:
         table.add_row(*(Text(printable(row[column])) for column in columns))
     console = Console(file=io.StringIO(), width=width, color_system=None)
@@ -183,9 +184,16 @@ def _shown(rows, columns, width=10**6):
     return "\n".join(line.rstrip() for line in console.file.getvalue().splitlines())
 
 
+def headed(column):
+    """A column's name as shown: that of a key has its unit."""
+    unit = KEYS[column].metadata["unit"] if column in KEYS else None
+    return f"{column}, {unit}" if unit else column
+
+
 def markdown(rows, columns):
     """Some columns of the rows as a Markdown table; no text ends its cell or moves the cursor."""
-    lines = [columns, ["---"] * len(columns), *([row[column] for column in columns] for row in rows)]
+    heads = map(headed, columns)
+    lines = [heads, ["---"] * len(columns), *([row[column] for column in columns] for row in rows)]
     return "\n".join(
         "| " + " | ".join(printable(text).replace("|", "\\|") for text in line) + " |" for line in lines
     )
