@@ -119,7 +119,7 @@ def solve(
         begin = on_every_rank(comm, begin)
     case = enter(config, comm, begin if hasattr(begin, "config") else None)
     if comm.rank == 0:
-        for words in implausible(case.config, case.contact):
+        for words in implausible(case.config, case.contact, begin is not None):
             warn(f"unusual: {words}", stacklevel=2)
     if comm.bcast(begin is not None):
         on_first_rank(comm, check_start, begin, case)

@@ -118,7 +118,8 @@ def _say_what(options, file, case, tables):
     which += [f"not given: {words}" for words in not_given(config, tables).values()]
     if idle := given(tables, sorted(config.unused)):
         which.append(f"not used: {', '.join(idle)}: nothing to a {config.kind.noun}")
-    which += [f"unusual: {words}" for words in implausible(config, case.contact)]
+    odd = implausible(config, case.contact, options.start_from is not None)
+    which += [f"unusual: {words}" for words in odd]
     for words in which:
         mention(words)
 

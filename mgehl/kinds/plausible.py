@@ -64,8 +64,9 @@ APART = 1000.0
 """Ratio of two formulas of which one cannot be meant."""
 
 
-def implausible(config, contact):
-    """Lines that name what is unusual in the input."""
+def implausible(config, contact, goes_on=False):
+    """Lines that name what is unusual in the input, of a run that `goes_on` from another, or of one that
+    does not."""
     physics = config.inputs
     for key, (low, high, unit) in USUAL.items():
         value = physics[key] if key in physics else config.value(key)
@@ -100,7 +101,7 @@ def implausible(config, contact):
     yield from implausible_heat(config, contact)
     yield from _either_body(config)
     if config.is_in_time:
-        yield from implausible_in_time(config, contact)
+        yield from implausible_in_time(config, contact, goes_on)
     if config.lubricant.oil is not None:
         yield from _range(config.lubricant, contact.hertz.p_h)
 

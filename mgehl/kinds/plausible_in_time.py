@@ -27,11 +27,11 @@ FASTEST = 200.0
 """m/s that machines have."""
 
 
-def implausible_in_time(config, contact):
-    """Lines that name it."""
+def implausible_in_time(config, contact, goes_on):
+    """Lines that name it, of a run that `goes_on` from another or not."""
     if solids_from(config) is not None:
         yield "heat: a run in time tells no temperatures; a steady run of an instant does"
-    yield from _parts_from_rest(config)
+    yield from () if goes_on else _parts_from_rest(config)
     yield from _odd_steps(config, contact)
     yield from _leaps(config)
     yield from _long_tables(config)

@@ -301,3 +301,10 @@ def test_an_own_law_that_falls_with_pressure_is_named(tmp_path, sign, names):
     law.write_text(f"def density(at): return 1.0 + {sign} * 1e-10 * at.pressure, {sign} * 1e-10\n")
     found = odd(BALL | {"lubricant.density_law": f"{law}:density"})
     assert [words.partition(":")[0] for words in found] == names
+
+
+@pytest.mark.parametrize("goes_on", [False, True])
+def test_surfaces_that_stand_still_squeeze_the_film_of_another_run(goes_on):
+    config = load_config(os.devnull, {"motion.speed": 0.0, "time.end": 1e-3, "grid.nodes": 65})
+    said = implausible(config, contact_from(config), goes_on)
+    assert any("without --start-from RUN" in words for words in said) is not goes_on
