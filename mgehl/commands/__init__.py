@@ -69,13 +69,14 @@ def whole_number(option, low, high=10**6):
 
 
 def several(option, known):
-    """What reads the words of an option, A,B, all of which are `known`. Raises UserError."""
+    """What reads the words of an option, A,B, all of which are `known`, each once. Raises
+    UserError."""
 
     def read(text):
         words = [word.strip() for word in text.split(",")]
         for word in words:
             if word not in known:
                 raise UserError(f"{option} {word}: known are {', '.join(known)}")
-        return words
+        return list(dict.fromkeys(words))
 
     return read

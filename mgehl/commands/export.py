@@ -7,6 +7,8 @@ for ParaView, instant by instant.
 example: mgehl export runs/try --to vts,nc
 """
 
+from mgehl.commands import several
+
 
 def add(parser):
     parser.add_argument("run", metavar="RUN", help="run directory")
@@ -19,10 +21,11 @@ def add(parser):
 
 def execute(options):
     """Write the files and name them."""
-    from mgehl.output.export.export import export, read_formats, targets
+    from mgehl.output.export.export import OF_FRAMES, WRITERS, export, targets
     from mgehl.output.stored import read_run
 
-    paths = targets(read_formats(options.to), options.run, options.out)
+    formats = several("--to", WRITERS | OF_FRAMES)(options.to)
+    paths = targets(formats, options.run, options.out)
     export(read_run(options.run), paths, options.force)
     for path in paths.values():
         print(path)

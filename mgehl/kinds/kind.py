@@ -71,7 +71,7 @@ class Kind:
 
     def nodes(self, mesh, times="x"):
         """The nodes of a mesh in words."""
-        return f"{mesh.nx} {times} {mesh.ny} nodes"
+        return f"{mesh.nx} nodes" if mesh.is_line else f"{mesh.nx} {times} {mesh.ny} nodes"
 
     def lines(self, config, contact, mesh):
         """Lines of text that tell what was configured."""

@@ -55,9 +55,5 @@ class LineKind(LoadedKind):
         """In N/mm."""
         return f"{1e-3 * contact.load:.4g}", "N/mm"
 
-    def nodes(self, mesh, times="x"):
-        """Of the one line."""
-        return f"{mesh.nx} nodes"
-
 
 LINE = LineKind()

@@ -193,10 +193,6 @@ class WedgeKind(Kind):
             cells = f"{(last - first) / dx:.1f} cells {wide}"
             yield f"pocket     {1e6 * section.pocket_depth:.4g} um deep, {cells}"
 
-    def nodes(self, mesh, times="x"):
-        """Of the one line, where there is but one."""
-        return f"{mesh.nx} nodes" if mesh.is_line else super().nodes(mesh, times)
-
     def parts(self, solution):
         """What is in the film, the exit, cavitation, the nodes."""
         torn = ["film cavitates"] if solution.result.cavitated_nodes else []

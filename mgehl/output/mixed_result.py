@@ -133,9 +133,8 @@ def measured(contact, mesh, nodes, kept=0.0, load_share=1.0):
 def _sealed(solid):
     """Nodes that are not `solid` and that solid nodes shut in, by sides of the cells: (ny, nx). A line
     contact is open at its two ends alone."""
-    labels, _ = ndimage.label(~solid)
-    sides = labels[[0, -1]] if len(labels) > 1 else labels[:0]
-    return ~solid & ~np.isin(labels, np.concatenate([sides.ravel(), labels[:, [0, -1]].ravel()]))
+    lines = solid if len(solid) > 1 else solid[0]
+    return ndimage.binary_fill_holes(lines).reshape(solid.shape) & ~solid
 
 
 def patch_sizes(solid):

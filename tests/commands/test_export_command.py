@@ -82,7 +82,7 @@ def test_a_full_disk_is_one_line_to_the_end_of_the_process(name, runs, tmp_path)
 
 @pytest.mark.parametrize(
     "words, said",
-    [(["--to", "vtk"], "none of vts, nc, npz, csv"), (["--to", "vts", "--out", "a.nc"], "--out a.nc"),
+    [(["--to", "vtk"], "known are vts, nc, npz, csv"), (["--to", "vts", "--out", "a.nc"], "--out a.nc"),
      (["--to", "csv"], "exists: add --force")],
 )  # fmt: skip
 def test_mistakes_are_one_line(words, said, run, refused):

@@ -1,9 +1,3 @@
-import os
-import signal
-import subprocess
-import sys
-import time
-
 import pytest
 from mpi4py import MPI
 from places import names_in
@@ -79,39 +73,3 @@ class TestStudies:
         assert len(rows_of(tmp_path / "g" / "film.csv")) == 2
         assert {row["central: limit, order"] for row in rows_of(tmp_path / "g" / "film.csv")} == {""}
         assert {"figures-11-12.png", "figure-13.png"} <= names_in(tmp_path / "g")
-
-
-class TestKill:
-    SCRIPT = (
-        "import sys; from mgehl.studies import transition; transition.COUNT = 3; "
-        "from mgehl.cli import main; sys.exit(main(sys.argv[1:]))"
-    )
-
-    def command(self, directory, *more):
-        study = ("study", "transition", "--grid", "65", "--out", str(directory))
-        return [sys.executable, "-c", self.SCRIPT, *study, *more]
-
-    def finished(self, study):
-        """Their fields.h5; a run that is published has finished when its checkpoint has gone."""
-        there = (study / "runs").glob("*/fields.h5")
-        return [path for path in there if not (path.parent / "checkpoint").exists()]
-
-    def test_what_was_finished_is_not_lost(self, tmp_path):
-        """Killed with some points done, gone on with: the table of a study that was left alone."""
-        killed, alone = tmp_path / "killed", tmp_path / "alone"
-        child = subprocess.Popen(self.command(killed), start_new_session=True, stdout=subprocess.DEVNULL)
-        deadline = time.monotonic() + 300.0
-        while time.monotonic() < deadline and len(self.finished(killed)) < 2:
-            time.sleep(0.02)
-        os.killpg(child.pid, signal.SIGKILL)
-        child.wait()
-        done = {path: path.stat().st_mtime_ns for path in self.finished(killed)}
-        assert 2 <= len(done) < 6 and not (killed / "transition-65.csv").exists()
-        subprocess.run(self.command(killed, "--resume"), check=True, stdout=subprocess.DEVNULL)
-        subprocess.run(self.command(alone), check=True, stdout=subprocess.DEVNULL)
-        assert all(path.stat().st_mtime_ns == when for path, when in done.items())
-        resumed, whole = (rows_of(path / "transition-65.csv") for path in (killed, alone))
-        assert len(resumed) == 6
-        for one, other in zip(resumed, whole, strict=True):
-            assert one["branch"] == other["branch"] and one["from"] == other["from"]
-            assert float(one["central nm"]) == pytest.approx(float(other["central nm"]), abs=1e-3)

@@ -65,15 +65,6 @@ OF_FRAMES = {"pvd": write_pvd}
 DEFAULT_NAME = "fields"
 
 
-def read_formats(text):
-    """The formats of a list such as "vts,nc", each once. Raises UserError."""
-    formats = [each.strip() for each in text.split(",")]
-    for each in formats:
-        if each not in WRITERS | OF_FRAMES:
-            raise UserError(f"--to {text}: {each!r} is none of {', '.join(WRITERS | OF_FRAMES)}")
-    return list(dict.fromkeys(formats))
-
-
 def targets(formats, directory, out=None):
     """{format: path}: `out`, to which a format adds its ending, or `fields` in the run's directory.
 
@@ -93,11 +84,10 @@ def targets(formats, directory, out=None):
 
 def export(solution, paths, force=False):
     """Write `solution` to `paths`, {format: path}, over files that exist only with `force`. Raises
-    OutputError where a file exists or cannot be written, or a field makes no sense."""
+    OutputError where a file exists or cannot be written."""
     for path in paths.values():
         if path.exists() and not force:
             raise OutputError(f"{path} exists: add --force to replace it, or choose another with --out")
-    _check_fields(solution)
     for each, path in paths.items():
         with writing(path):
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -106,14 +96,3 @@ def export(solution, paths, force=False):
             else:
                 with whole_file(path) as part:
                     WRITERS[each](part, solution)
-
-
-def _check_fields(solution):
-    """Neither an iteration that diverged nor a damaged file may pass for an answer."""
-    fields = {"pressure": solution.pressure, "film": solution.film} | further_fields(solution)
-    for name, field in fields.items():
-        bad = np.count_nonzero(~np.isfinite(field))
-        if bad:
-            raise OutputError(f"the {name} of this run is not finite at {bad} nodes: nothing to export")
-    if not np.isin(solution.status, range(len(status.NAMES))).all():
-        raise OutputError("the status of this run is damaged: it has nodes that are nothing known")

@@ -1,16 +1,11 @@
-import numpy as np
 import pytest
 from made_solution import make_solution
 from told import refusal
 
 from mgehl.errors import OutputError
-from mgehl.output.export.export import WRITERS, export, read_formats
+from mgehl.output.export.export import WRITERS, export
 
 every_format = pytest.mark.parametrize("name", WRITERS)
-
-
-def test_a_list_names_each_once():
-    assert read_formats("nc, vts,nc") == ["nc", "vts"]
 
 
 @every_format
@@ -42,14 +37,3 @@ def test_a_place_that_cannot_be_written_is_one_line(name, place, tmp_path):
     said = refusal(export, make_solution("point"), {name: path}, force=True, error=OutputError)
     assert "cannot be written" in said
     assert len(list(tmp_path.rglob("*"))) == (1 if place == "a file" else 2)
-
-
-@pytest.mark.parametrize("field, word", [("P", "pressure"), ("H", "film"), ("filling", "filling")])
-@pytest.mark.parametrize("value", [np.nan, np.inf])
-def test_a_field_that_is_not_finite_is_refused(field, word, value, tmp_path):
-    solution = make_solution("line")
-    solution.fields.filling = np.ones(solution.fields.P.shape)
-    getattr(solution.fields, field)[0, 3] = value
-    with pytest.raises(OutputError, match=f"the {word} of this run is not finite at 1 nodes"):
-        export(solution, {"csv": tmp_path / "a.csv"})
-    assert not list(tmp_path.iterdir())
