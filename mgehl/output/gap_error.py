@@ -35,6 +35,8 @@ So wide are bands of line contacts that touch, too, where all oil has to pass ev
 nanometre. Of 14 to 16 about a number on 513 nodes, beside 2049 (a list of another hand), 5 about the gap by
 pressure were too narrow, by up to 3.9 times; 2 about loads though so wide already, by 1.8 at the most."""
 
+NO_INLET = "the inlet has less than half a cell"
+
 SHARES = "contact_load_share", "solid_load_fraction"
 OF_THE_FILM = "mean_nm", "loaded_nm", "friction", "rolling", *SHARES
 """Bands about parts of the load, and all that hang on the film."""
@@ -173,10 +175,9 @@ def from_grids(grids):
 
 def by_unseen_inlet(error, finest):
     """A `GapError` of grids that do not see the inlet: all of it is wider that hangs on the film."""
-    unseen = "the inlet has less than half a cell"
-    found = _wider(error, finest, OF_THE_FILM, f"but for the pressure: {unseen}")
+    found = _wider(error, finest, OF_THE_FILM, f"but for the pressure: {NO_INLET}")
     if error.mean_nm is not None and found.mean_nm is None:
-        return no_band(f"{unseen}: the grid decides what is film")
+        return no_band(f"{NO_INLET}: the grid decides what is film")
     return found
 
 

@@ -45,7 +45,8 @@ def time_error(result, problem, scene, asked, progress, beside):
     before, (coarser, why_not) = progress.convolutions, beside()
     if why_not:
         return TimeError(why_not)
-    found = from_rows(progress.rows, coarser, scene)
+    unseen = result.resolution.inlet_cells < gap_error.UNSEEN_CELLS
+    found = from_rows(progress.rows, coarser, scene, gap_error.OF_UNSEEN if unseen else 1.0)
     if result.resolution.is_the_grids and not problem.contact.is_mixed:
         found = _without(OF_FILMS, found)
     return replace(found, convolutions=progress.convolutions - before)
@@ -60,15 +61,19 @@ def _without(columns, error):
     return replace(error, **left)
 
 
-def from_rows(rows, coarser, scene):
-    """The `TimeError` that the rows of a `Scene` tell, and those of the coarser grid."""
+def from_rows(rows, coarser, scene, wider=1.0):
+    """The `TimeError` that the rows of a `Scene` tell, and those of the coarser grid. Bands about all but
+    the pressure are so many times `wider`, as of steady states whose inlet no grid sees."""
     gone, pairs = passed(rows, scene), list(_common(rows, coarser))
     of_passage = [pair for k, *pair in pairs if gone[k] > gone[-1] - 1.0 + ROUNDING]
+    how = f"from the differences to {coarser[-1]['grid']} nodes in {len(coarser)} steps for {len(rows)}"
+    if wider > 1.0:
+        how += f"; {wider:g} times as wide but for the pressure: {gap_error.NO_INLET}"
     error = TimeError(
-        f"from the differences to {coarser[-1]['grid']} nodes in {len(coarser)} steps for {len(rows)}",
-        means=_half_widths(of_passage) if gone[-1] >= 1.0 else {},
-        whole=_half_widths([pair for _, *pair in pairs]) if has_whole(scene) else {},
-        at_the_end=_half_widths(of_passage, of_last=True),
+        how,
+        means=_half_widths(of_passage, wider) if gone[-1] >= 1.0 else {},
+        whole=_half_widths([pair for _, *pair in pairs], wider) if has_whole(scene) else {},
+        at_the_end=_half_widths(of_passage, wider, of_last=True),
     )
     return _without(OF_A_SPIKE, error) if scene.turns_round else error
 
@@ -82,7 +87,7 @@ def _common(rows, coarser):
             yield k, rows[k], row
 
 
-def _half_widths(pairs, of_last=False):
+def _half_widths(pairs, wider, of_last=False):
     """{column: half-width} about means of pairs of rows, or about the last of them."""
     steps = np.array([row["step_s"] for _, row in pairs])
     weights, found = steps / steps.sum(), {}
@@ -96,7 +101,7 @@ def _half_widths(pairs, of_last=False):
         # A difference that changes its sign with time is small in an instant, or on average, by chance.
         apart = float(weights @ np.abs(fine - coarse))
         value, difference = told(fine), abs(told(fine) - told(coarse))
-        half = _half_width(name, value, max(difference, apart), apart)
+        half = _half_width(name, value, max(difference, apart), apart, 1.0 if name == PRESSURE else wider)
         found[name] = None if opens and name in SHARES else half
     crest, pressure = (np.array([row[name] for row, _ in pairs]) for name in ("pressure_crest", PRESSURE))
     if told(crest) > NARROW:
@@ -106,14 +111,15 @@ def _half_widths(pairs, of_last=False):
     return {name: half for name, half in found.items() if half is not None}
 
 
-def _half_width(name, value, difference, apart):
+def _half_width(name, value, difference, apart, wider):
     """That of a column; None where two grids tell it too differently, or both that there is nothing."""
     if not apart:
         return None
     if name in SHARES:
-        return share_half_width(value, value + difference, apart)
+        half = share_half_width(value, value + difference, apart)
+        return half and unless_wider(wider * half, gap_error.WIDEST_SHARE)
     half = half_width(value, value + difference, apart, touches=True)
-    return unless_wider(half, gap_error.WIDEST * abs(value))
+    return unless_wider(wider * half, gap_error.WIDEST * abs(value))
 
 
 def with_bands(result, contact, error):

@@ -54,7 +54,7 @@ class GridGap:
     mean_apart_nm: float = 0.0
     """Mean size of the differences from the finer grid, node by node: of all nodes within the ellipse."""
     loaded_apart_nm: float = 0.0
-    """The same of all nodes by their pressure."""
+    """The same by their pressure."""
     max_pressure_GPa: float | None = None
     """None in older results."""
     solid_load_fraction: float | None = None
@@ -81,10 +81,13 @@ def within_hertz(mesh, reach=1.0):
 
 
 def gaps_of(mesh, P, H, reach=1.0):
-    """Mean of the gap H `within_hertz`, and of all nodes by their pressure P; both (ny, nx)."""
+    """Mean of the gap H `within_hertz`, and by the pressure P there; both (ny, nx). Over all nodes the
+    latter would have no limit: far out p h falls as 1/x."""
+    there = within_hertz(mesh, reach)
+    P, H = P[there], H[there]
     load = P.sum()
     loaded = float(np.vdot(P, H) / load) if load > 0.0 else float("nan")
-    return float(np.mean(H[within_hertz(mesh, reach)])), loaded
+    return float(np.mean(H)), loaded
 
 
 def gaps(problem, P, H):

@@ -87,6 +87,15 @@ def test_a_difference_that_changes_its_sign_tells_by_its_size():
     assert found.at_the_end["mean_gap_nm"] == found.means["mean_gap_nm"] == pytest.approx(1.5 * 1.5)
 
 
+def test_where_no_grid_sees_the_inlet_bands_are_three_times_as_wide():
+    """10.4 ± .4 nm were 12.0 in shorter steps, and on the next finer grid."""
+    fine, coarse = rows(lambda k: 100.0), rows(lambda k: 104.0, coarse=2)
+    found, wider = from_rows(fine, coarse, scene()), from_rows(fine, coarse, scene(), 3.0)
+    assert wider.means["mean_gap_nm"] == pytest.approx(3.0 * found.means["mean_gap_nm"])
+    assert wider.means["max_pressure_GPa"] == found.means["max_pressure_GPa"]
+    assert "3 times as wide but for the pressure: the inlet has less" in wider.how
+
+
 def test_what_grids_tell_too_differently_has_no_band():
     found = from_rows(rows(lambda k: 100.0), rows(lambda k: 160.0, coarse=2), scene())
     assert found.at_the_end == {}

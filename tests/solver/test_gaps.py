@@ -17,13 +17,13 @@ from mgehl.studies.study import merged
 
 
 def test_the_mean_is_that_of_the_nodes_within_the_ellipse_or_a_line_s_width():
-    """13 of 25 nodes, four of them on the ellipse; by pressure every node counts."""
+    """13 of 25 nodes, four of them on the ellipse, and by their pressure."""
     distance = np.hypot.outer(np.arange(-2, 3), np.arange(-2, 3))
     H = np.where(distance < 2.0, 2.0, np.where(distance == 2.0, 15.0, 9.0))
     P = np.zeros((5, 5))
-    P[2, 2], P[0, 0] = 3.0, 1.0
+    P[2, 2], P[0, 2], P[0, 0] = 3.0, 1.0, 7.0
     found = gaps_of(Mesh(5, 5, (-1.0, 1.0), (-1.0, 1.0)), P, H)
-    assert found == ((9 * 2.0 + 4 * 15.0) / 13, (3.0 * 2.0 + 9.0) / 4.0)
+    assert found == ((9 * 2.0 + 4 * 15.0) / 13, (3.0 * 2.0 + 15.0) / 4.0)
     line = Mesh(5, 1, (-2.0, 2.0), (-2.0, 2.0))
     assert gaps_of(line, np.ones((1, 5)), np.array([[9.0, 1.0, 2.0, 3.0, 9.0]]))[0] == 2.0
 
