@@ -167,6 +167,9 @@ def effort_of(config, contact, mesh):
     direct = mesh.is_line and mesh.nx <= DIRECT_IN_TIME
     each = OF_A_SHORT_LINE if direct else OF_A_STEP[contact.is_rough + contact.is_mixed]
     measured = f"{steps} steps of some {each:g} after the steady state"
+    changes = any(isinstance(config.value(key), str) for key in ("motion.speed", config.kind.load_key))
+    if changes and not contact.is_rough and not config.time.step:
+        measured += "; waves of speed or load took up to six times as many"
     return replace(steady, convolutions=steady.convolutions + each * steps, measured=measured)
 
 
