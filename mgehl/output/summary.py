@@ -61,7 +61,8 @@ def summarise(problem, outcome, tolerance, making, scene=None):
         thermal_reduction=contact.thermal_reduction,
         is_thermally_reduced=bool(contact.lubricant.thinned < 1.0),
     )
-    broken = first_broken(_equations(result, outcome, tolerance, allowed(tolerance, minimum)))
+    largest = allowed(tolerance, minimum, problem.rounding(evaluation, state.status))
+    broken = first_broken(_equations(result, outcome, tolerance, largest))
     conserves = _conserves(problem, result.mass, tolerance)
     holds = result.pressure_inequality.violations == 0 and conserves and not result.edge.wrong[0]
     reason = broken or first_broken(_more(result, conserves))

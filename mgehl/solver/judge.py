@@ -23,6 +23,9 @@ same, a smooth film by the arithmetic mean that closes continuously takes twice 
 ROUNDED = 3
 """Steps that did not lower a residual which is small beside a thick film, after which rounding is left."""
 
+MOST_ROUNDING = 1000.0
+"""Times the tolerance that rounding may leave at the most."""
+
 IDLE_CIRCLE = 8.0
 """Whole steps that did not lower the residual from which on neighbours change sets in turn, where contact
 closes continuously: without it hardly half of thin-film balls without layers are found. A shortened step
@@ -56,12 +59,14 @@ class Verdict:
 GO_ON = Verdict(ends=False)
 
 
-def judge(position, partition, limits):
+def judge(position, partition, limits, rounding=lambda: 0.0):
     """The `Verdict` on a position whose last cycle has just been measured (collective). `limits` are
-    `NewtonSettings`, patience included."""
+    `NewtonSettings`, patience included. `rounding()` is the residual that rounding may leave."""
     cycle = position.cycles[-1]
     idle = len(since_lowered(position))
-    limit = allowed(limits.tolerance, cycle.minimum) if idle >= ROUNDED else limits.tolerance
+    limit = limits.tolerance
+    if idle >= ROUNDED and limit < cycle.residual <= MOST_ROUNDING * limit:
+        limit = allowed(limit, cycle.minimum, rounding())
     small = cycle.residual <= limit and abs(cycle.load_error) <= limits.tolerance
     if small and cycle.changes.total == 0:
         return Verdict(True, True, "residual, load and sets settled")
@@ -85,11 +90,11 @@ def judge(position, partition, limits):
     return GO_ON
 
 
-def allowed(tolerance, smallest):
+def allowed(tolerance, smallest, rounding):
     """The largest residual of an answer whose smallest gap this is, in units of H: of what flows through a
-    film thicker than that unit the same part. Rounding may leave no less: 1.1e-8 of 68 units, of a light
-    roller on 4097 nodes."""
-    return tolerance * max(1.0, smallest)
+    film thicker than that unit the same part, or what `rounding` may leave. That was 1.1e-8 of 68 units, of
+    a light roller on 4097 nodes, and 1.2e-10 of deep waves on 1025."""
+    return max(tolerance * max(1.0, smallest), min(rounding, MOST_ROUNDING * tolerance))
 
 
 def how_sets_change(position, by_film):

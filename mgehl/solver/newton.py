@@ -91,7 +91,7 @@ class Newton(PythonSnes):
             self._journal.step(self._problem.grid, position)
             self._settle()
             self._measure()
-            verdict = judge(position, partition, limits)
+            verdict = judge(position, partition, limits, self._rounding)
             verdict = judge_work(verdict, self._multigrid.work, self._settings.max_work)
             if not verdict.ends:
                 verdict = judge_system(self._correct(), position)
@@ -116,6 +116,10 @@ class Newton(PythonSnes):
         """Evaluate the residual of the present state; add a row to the history."""
         self._tell(*self._compute_function())
         self._position.changes = Changes()
+
+    def _rounding(self):
+        """The residual that rounding may leave of the present state."""
+        return self._problem.rounding(self._evaluation, self._position.state.status)
 
     def _correct(self):
         """Solve the linearised bordered system; return the `KSP.ConvergedReason`."""

@@ -10,7 +10,7 @@ from mgehl.discretization.axes import axes_of
 from mgehl.discretization.contents import OVERFULL, feeding, missing_fillings
 from mgehl.discretization.evaluation import Evaluation
 from mgehl.discretization.influence import influence_coefficients
-from mgehl.discretization.residual import residual
+from mgehl.discretization.residual import linearise, residual, shifted
 from mgehl.discretization.rows import rows_of
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.grid.events import ASSEMBLY, event
@@ -134,6 +134,13 @@ class Problem:
     def residual(self, evaluation, status):
         """Rows of the nonlinear residual, (lines, nx), by what the nodes are now."""
         return residual(evaluation, self.rows(status))
+
+    def rounding(self, evaluation, status):
+        """Rms residual that the last digits of the pressures may leave, without a convolution."""
+        stencil = linearise(evaluation, self.rows(status))
+        terms = zip(stencil.offsets, stencil.A, strict=True)
+        most = sum(np.abs(A * shifted(evaluation.P, tuple(offset))) for offset, A in terms)
+        return self.rms(np.finfo(float).eps * most)
 
     def rms(self, F):
         """Root mean square of a residual over all nodes."""

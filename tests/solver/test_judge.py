@@ -80,6 +80,14 @@ def test_the_verdict_on_a_position(partition, make_position, residuals, given, r
     assert found.converged == reason.endswith("sets settled")
 
 
+@pytest.mark.parametrize("rounding, ends", [(1e-8, False), (3e-8, True)])
+def test_what_rounding_leaves_is_settled(partition, make_position, rounding, ends):
+    """A roller with deep waves was solved to 1.2e-10 in 180 steps, and went on for 1e-10 to the last."""
+    idle = make_position(*(ROUNDED + 1) * [2e-8])
+    assert judge(idle, partition, LIMITS, lambda: rounding).converged is ends
+    assert not judge(make_position(*ROUNDED * [2e-8]), partition, LIMITS, lambda: rounding).ends
+
+
 @pytest.mark.parametrize("nodes, spreads", [([4, 8, 8, 12, 10], False), ([4, 8, 8, 12, 10, 11], True)])
 def test_contact_that_spreads_in_so_many_steps_ends_it_if_asked(partition, make_position, nodes, spreads):
     position = make_position(1e-3)

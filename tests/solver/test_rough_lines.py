@@ -16,6 +16,7 @@ from mgehl.solver.from_config import set_up
 from mgehl.solver.gaps import gaps
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.outcome import Outcome
+from mgehl.solver.problem import ContactProblem, State
 from mgehl.solver.recipe import DRY, THICK_FILM, UNDER_FILM
 from mgehl.solver.task import Task
 
@@ -29,6 +30,24 @@ ROLLER = {
     "solver": {"error": False},
 }  # fmt: skip
 """Ridges across the motion, 1.3 GPa, lambda 0.3."""
+
+
+def test_a_last_digit_of_the_pressures_changes_the_residual_by_what_rounding_may():
+    """Flows answer to differences of pressures through gaps of 200 nm."""
+    solution = solved(ROLLER)
+    parts = set_up(case_of(solution.config))
+    hierarchy = Hierarchy(parts.mesh, 33, parts.contact.kernel, MPI.COMM_SELF)
+    problem = ContactProblem(
+        hierarchy.grids[-1], hierarchy.deflections[-1], parts.contact, parts.settings.scheme
+    )
+    fields, signs = solution.fields, np.random.default_rng(1).choice([-1.0, 1.0], solution.fields.P.shape)
+    state = State(fields.P, 0.0, fields.H, fields.status, fields.p, fields.filling)
+    evaluation = problem.evaluate(state)
+    moved = replace(state, p=state.p * (1.0 + np.finfo(float).eps * signs))
+    change = problem.residual(problem.evaluate(moved), state.status)
+    change -= problem.residual(evaluation, state.status)
+    assert 0.1 < problem.rms(change) / problem.rounding(evaluation, state.status) < 1.0
+    hierarchy.destroy()
 
 
 def test_each_linear_system_is_solved_at_once():
