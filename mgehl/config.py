@@ -174,7 +174,9 @@ def not_given(config, tables):
     whose = {key: "the default" if key == "contact.load_per_length" else "the paper's" for key in missing}
     words = {key: f"{key}: {config.said(key)} is {words}" for key, words in whose.items()}
     for key in (key for key, field in KEYS.items() if field.metadata["unit"] == "rad/s"):
-        if (omega := value_of(tables, key)) and not isinstance(omega, str):
+        omega = value_of(tables, key)
+        # One of many digits was reckoned, as in the file that a run leaves.
+        if omega and not isinstance(omega, str) and omega == round(omega, 2):
             words[key] = f"the unit of {key}: rad/s is taken, which makes {30.0 / pi * omega:.4g} rpm"
     return words
 

@@ -38,7 +38,7 @@ _PRINTED = (
     (re.compile(r"(?<=[A-Za-z])\.(?=[A-Za-z])"), lambda _: "*"),
     (re.compile(r"\b(m?)Pas\b"), lambda m: f"{m[1]}Pa*s"),
     (re.compile(r"\bNs\b"), lambda _: "N*s"),
-    (re.compile(r"(?<=\d)\s*(?:(?:r|U|rev|\s1)? ?/ ?min|\smin\^-1|RPM|U[Pp][Mm])$"), lambda _: " rpm"),
+    (re.compile(r"(?<=\d)\s*(?:(?:r|U|rev|\s1)? ?/ ?min|\smin\^-1|(?i:rpm|upm))$"), lambda _: " rpm"),
     (re.compile("[\u00c5\u212b]"), lambda _: "angstrom"),
     (re.compile(r"(?<=/)\s*(?:°C|degC)\b"), lambda _: "K"),  # a difference
     (re.compile(r"(?<=[WJ]) */ *(m|kg|m\^?3)[ *]*K\b"), lambda m: f"/{m[1].replace('m3', 'm^3')}/K"),
@@ -130,6 +130,8 @@ def read_value(key, rules, value):
 
 def chosen(rules, value):
     """The one of a key's words that a value is; None if it is none of them."""
+    if rules["also"] and isinstance(value, int):
+        value = str(value)  # 52100, a steel
     if rules["kind"] is not str or not isinstance(value, str):
         return None
     names = {_plain(word): word for word in (*rules["also"], *(rules["choices"] or ()))}

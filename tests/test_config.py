@@ -321,6 +321,7 @@ def test_a_kind_that_is_set_pushes_out_what_the_file_says_of_another(kind):
     [
         ("body_1.material=100Cr6", "steel"),
         ("body_1.material=si3n4", "silicon nitride"),
+        ("body_1.material=52100", "steel"),
         ("body_1.material=cast-iron", "cast iron"),
         ("lubricant.oil=PAO 100", "PAO100"),
         ("lubricant.viscosity_law=Constant", "constant"),

@@ -190,7 +190,7 @@ class LoadedKind(Kind):
             "central_film_error": _nm(error, "central_nm"),
             "minimum_film_error": _nm(error, "minimum_nm"),
             "mean_gap": _nm(gaps, "mean_gap_nm", "mean gap within the Hertz ellipse, contact included"),
-            "loaded_gap": _nm(gaps, "loaded_gap_nm", "mean gap by pressure"),
+            "loaded_gap": _nm(gaps, "loaded_gap_nm", "the same by pressure"),
             "mean_gap_error": _nm(gap_error, "mean_nm"),
             "loaded_gap_error": _nm(gap_error, "loaded_nm"),
             "maximum_pressure_error": _GPa(result, "max_pressure_band_GPa"),

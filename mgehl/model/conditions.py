@@ -13,8 +13,8 @@ class Conditions:
     pressure: np.ndarray
     """In Pa, never negative."""
     viscosity: np.ndarray | float | None = None
-    """In Pa s: a law of the viscosity is told that at no pressure, a law of the shear stress that at this
-    one, of oil that is hardly sheared."""
+    """In Pa s: a law of the viscosity is told that at no pressure, a law of the shear stress that of oil
+    that is hardly sheared, at this pressure; in layers under contact at the fluid's, which is lower."""
     pressure_viscosity: float | None = None
     """d ln(eta)/dp at no pressure in 1/Pa, of a law of the viscosity."""
     shear_rate: np.ndarray | None = None

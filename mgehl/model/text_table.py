@@ -30,7 +30,9 @@ _DECIMAL_COMMA = r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?"
 COMMA_AND_BLANK = ", "
 """Between numbers with decimal commas: 0,29, 0,31."""
 
-UNIT_ALONE = re.compile(r"[\[(]?(?:[kmunpµ\u03bc]?[msN]|min|inch|deg|°|k?N/m?m|k?m/[sh]|mm/s)[\])]?")
+UNIT_ALONE = re.compile(
+    r"[\[(]?(?:[kmunpµ\u03bc]?[msN]|cm|min|inch|deg|°|-|k?N/m?m|[kmcunµ\u03bc]?m/[sh])[\])]?"
+)
 """A cell of a line of units below that of names."""
 
 _LIKE_A_NUMBER = r"[-+]?\d[\d.,' ]*"

@@ -13,6 +13,10 @@ LARGE = 1e7
 """From here on a number is told with four digits."""
 
 
+SMALL = 1e-7
+"""The same below this: of a coefficient."""
+
+
 def is_number(text):
     """True of a number, of one with its band, and of two as in "3 of 7" or "3..7"."""
     try:
@@ -27,9 +31,10 @@ def with_band(value, half_width=None):
     """A film and the half-width of its band, both of one unit, with one digit, or two that begin with a 1.
     Without a band four digits stand after the point; of a diverged run four in all."""
     known = half_width is not None and isfinite(value) and isfinite(half_width)
-    if not known or abs(value) >= LARGE:
+    is_small = known and 0.0 < half_width < abs(value) < SMALL
+    if not known or abs(value) >= LARGE or is_small:
         band = f" ± {half_width:.1e}" if known else ""
-        return f"{round(value, 4) + 0.0:.4f}" if abs(value) < LARGE else f"{value:.3e}{band}"
+        return f"{value:.3e}{band}" if band or abs(value) >= LARGE else f"{round(value, 4) + 0.0:.4f}"
     decimals = MOST_DECIMALS
     if half_width > 0.0:
         first = floor(log10(half_width))

@@ -44,7 +44,8 @@ class MixedResult:
     mean_gap_nm: float | None = None
     """Of all nodes within the ellipse, film, contact and torn film alike; None in older results."""
     loaded_gap_nm: float | None = None
-    """Mean of all nodes by their pressure: the gap on which the load rests."""
+    """The same by their pressure: the gap on which the load rests. In results before 30 November 2026 of
+    all nodes."""
     near_contact_load_share: float | None = None
     """Part of the load on films at most `NEAR` times as thick as the boundary film that contact keeps."""
     error: GapError | None = None

@@ -167,6 +167,9 @@ class Result:
     minimum_film_nm: float = None
     """The smallest gap of all nodes, contact and what lies outside the ellipse included."""
     residual: float = None
+    residual_limit: float | None = None
+    """Up to which it is an answer's: the tolerance, or more of thick films and by rounding; None in older
+    results."""
     flux_imbalance: float = None
     cavitated_nodes: int = None
     mass: Mass | None = None

@@ -67,7 +67,7 @@ def summarise(problem, outcome, tolerance, making, scene=None):
     holds = result.pressure_inequality.violations == 0 and conserves and not result.edge.wrong[0]
     reason = broken or first_broken(_more(result, conserves))
     return replace(
-        result, converged=not broken and holds, settled=not broken,
+        result, converged=not broken and holds, settled=not broken, residual_limit=largest,
         reason=reason or "residual, load, sets, complementarity and the pressure inequality hold",
     )  # fmt: skip
 

@@ -69,6 +69,8 @@ def from_rows(rows, coarser, scene, wider=1.0):
     how = f"from the differences to {coarser[-1]['grid']} nodes in {len(coarser)} steps for {len(rows)}"
     if wider > 1.0:
         how += f"; {wider:g} times as wide but for the pressure: {gap_error.NO_INLET}"
+    if scene.turns_round:
+        how += "; none about pressure and friction, for the motion turns round"
     error = TimeError(
         how,
         means=_half_widths(of_passage, wider) if gone[-1] >= 1.0 else {},

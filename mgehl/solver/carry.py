@@ -13,9 +13,8 @@ r is this step over the one before, Q the Poiseuille flow; S moves along. w is 1
 beside cavities and contact, where the first backward formula keeps contents positive. Whatever w is, what
 leaves a node enters another.
 
-Where no heights move, the steady state at the beginning solves each step to the last digit (`Reference`):
-the flows by which it is steady are differenced otherwise, and what that makes is a flow, too, which is
-added.
+Where no heights move, the steady state at the beginning solves each step (`Reference`): the flows by which
+it is steady are differenced otherwise, and what that makes is a flow, too, which is added.
 
 The content that is carried on is the one of the balance, not rho H of the solved state: what the residual
 leaves over is carried into the next step, and oil is neither made nor lost in any number of steps.

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mgehl.solver.extrapolation import weights_at
+
 _OFFSETS = np.array([-1.0, 0.0, 1.0])
 _WEIGHTS = np.array([0.5, 1.0, 0.5])
 """Of the nodes in the fit of a paraboloid: those in the corners count least."""
@@ -96,9 +98,8 @@ def _cubic(nodes, point):
     """Lagrange's weights of the four nodes around a point, and none of the others."""
     at = (point - nodes[0]) / (nodes[1] - nodes[0])
     first = int(np.clip(np.floor(at) - 1, 0, len(nodes) - 4))
-    others, weights = np.arange(4), np.zeros(len(nodes))
-    for k in others:
-        weights[first + k] = np.prod([(at - first - m) / (k - m) for m in others if m != k])
+    weights = np.zeros(len(nodes))
+    weights[first : first + 4] = weights_at(np.arange(4), at - first)
     return weights
 
 

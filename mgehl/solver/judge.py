@@ -21,7 +21,7 @@ relaxed before the next step: relaxation and step might undo each other. Where t
 same, a smooth film by the arithmetic mean that closes continuously takes twice the work."""
 
 ROUNDED = 3
-"""Steps that did not lower a residual which is small beside a thick film, after which rounding is left."""
+"""Steps that did not lower a small residual, after which rounding is left."""
 
 MOST_ROUNDING = 1000.0
 """Times the tolerance that rounding may leave at the most."""

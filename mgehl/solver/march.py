@@ -17,6 +17,7 @@ from mgehl.discretization.storage import content
 from mgehl.discretization.transport import Shift, moved
 from mgehl.solver.beyond import Beyond
 from mgehl.solver.carry import Carried, Reference, Transport
+from mgehl.solver.extrapolation import fading, weights_at
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.outcome import Outcome
 from mgehl.solver.pace import HALVINGS, Pace
@@ -34,6 +35,9 @@ FINER = 0.03
 
 SUDDEN = 0.3
 """Change of the speed in a step, over the largest one, after which nothing is known of steps before."""
+
+TRIES, NO_GAP = 3, 1e-9
+"""First steps that are tried, and gap below which its change tells nothing."""
 
 LOOKS_BACK = 3
 """States that the first guess of a step is made of: a parabola in time."""
@@ -136,7 +140,7 @@ class March:
 
     def _advance(self, standing):
         """Take one step, halved as often as need be; return its `Instant`, None where it never settles."""
-        step = self._pace.fitted(standing.t, standing.step)
+        step = self._gentle(standing, self._pace.fitted(standing.t, standing.step))
         for halvings in range(HALVINGS):
             if (found := self._tried(standing, step, halvings)) is not None:
                 return found
@@ -146,17 +150,10 @@ class March:
     def _tried(self, standing, step, halvings):
         """The `Instant` of a step in s, None where it does not settle; else `standing` has moved on."""
         scene, problem, t = self._scene, self._problem, standing.t + step
-        way = scene.way(standing.t, t)
-        path = np.add(standing.path, way).tolist()
-        self._turn(t, path)
-        leg, reference = self._leg(standing, step, way)
-        problem.storage = leg.storage
-        self._beyond.resist(standing.state, leg.dT, scene.load_share(t) / scene.load_share(standing.t))
-        newton = self._solved(self._guess(standing, t, way, halvings), leg)
+        path = np.add(standing.path, scene.way(standing.t, t)).tolist()
+        leg, reference, newton = self._after(standing, step, path, halvings)
         if not newton.converged:
             self._why = newton.reason
-            return None
-        if self._begins_rashly(standing, newton.state) and halvings < HALVINGS - 1:
             return None
         evaluation = problem.evaluate(newton.state)
         stored, closure = self._account(leg, standing.carried, evaluation)
@@ -169,12 +166,28 @@ class March:
         speed, load = scene.speed.value(t), scene.load_share(t)
         return Instant(standing.number, t, step, speed, load, newton, stored, closure, halvings)
 
-    def _begins_rashly(self, standing, state):
-        """Whether a first step changes some gap by more than it may."""
+    def _after(self, standing, step, path, halvings=0):
+        """The `Leg` of a step in s on a path, the `Reference` after it, and Newton's `Outcome`."""
+        scene, problem, t = self._scene, self._problem, standing.t + step
+        way = scene.way(standing.t, t)
+        self._turn(t, path)
+        leg, reference = self._leg(standing, step, way)
+        problem.storage = leg.storage
+        self._beyond.resist(standing.state, leg.dT, scene.load_share(t) / scene.load_share(standing.t))
+        return leg, reference, self._solved(self._guess(standing, t, way, halvings), leg)
+
+    def _gentle(self, standing, step):
+        """As much of the first step as changes no gap by more than it may, as a longer one tells. A load
+        that leaps changes gaps in any."""
         most, before = self._pace.first_change, standing.state.H
-        if standing.number or most is None:
-            return False
-        return self._problem.grid.count(np.abs(state.H - before) > most * before) > 0
+        for _ in range(TRIES if most and not standing.number else 0):
+            *_, newton = self._after(standing, step, standing.path)
+            changed = np.abs(newton.state.H - before) / np.maximum(before, NO_GAP)
+            largest = self._problem.grid.max(changed, initial=0.0)
+            if not newton.converged or largest <= most:
+                break
+            step *= 0.5 * most / largest
+        return step
 
     def _leg(self, standing, step, way):
         """The `Leg` of a step in s in which the mean surface goes a way, and the `Reference` after it.
@@ -246,8 +259,8 @@ class March:
         problem, last = self._problem, standing.state
         P, H0 = last.P, last.H0
         if not halvings and not problem.grid.count(last.status == CONTACT):
-            weights, tears_at = _continued(standing.times, t), problem.contact.tears_at
-            P = np.maximum(_fading(self._going_on(standing, t, way), standing, t, tears_at), tears_at)
+            weights, tears_at = weights_at(standing.times, t), problem.contact.tears_at
+            P = np.maximum(fading(self._going_on(standing, t, way), standing, t, tears_at), tears_at)
             P, H0 = np.where(last.P > tears_at, P, tears_at), float(np.dot(weights, standing.H0))
         status = np.where(last.status == BOUNDARY, BOUNDARY, last.status)
         return problem.state(P, H0, status, last.p.copy(), last.filling.copy())
@@ -257,7 +270,7 @@ class March:
         surface, as waves of the film do; else a parabola in time."""
         shift = Shift(*self._scene.cells(way, self._problem.grid.mesh))
         if not self._scene.moves or shift.along_y or len(standing.times) < 2:
-            return np.tensordot(_continued(standing.times, t), standing.P, 1)
+            return np.tensordot(weights_at(standing.times, t), standing.P, 1)
         before, last = standing.P[-2:]
         steps = (t - standing.times[-1]) / (standing.times[-1] - standing.times[-2])
         return last + steps * moved(last - before, shift.along_x)
@@ -266,7 +279,7 @@ class March:
         """What the pressures of a step are off a straight line in time, over themselves; rms."""
         if len(standing.times) < 2:
             return 0.0
-        line = np.tensordot(_continued(standing.times[-2:], t), standing.P[-2:], 1)
+        line = np.tensordot(weights_at(standing.times[-2:], t), standing.P[-2:], 1)
         rms = self._problem.rms
         return rms(state.P - line) / max(rms(state.P), 1e-300)
 
@@ -277,23 +290,3 @@ class March:
         standing.H0 = [*standing.H0[last:], state.H0]
         before = [] if standing.P is None else list(standing.P[last:])
         standing.P = np.stack([*before, state.P])
-
-
-def _fading(P, standing, t, nothing):
-    """The pressures `P` that a parabola leads to at a time `t`; where it falls by more than half to
-    `nothing`, those that fade as they did before. Peaks that leave the contact would be gone at once, and
-    a handful of such nodes makes up most of a guess's residual."""
-    if len(standing.times) < 2:
-        return P
-    before, last = standing.P[-2:] - nothing
-    steps = (t - standing.times[-1]) / (standing.times[-1] - standing.times[-2])
-    fades = (0.0 < last) & (last < before) & (P - nothing < 0.5 * last)
-    P[fades] = np.maximum(P[fades], nothing + last[fades] * (last[fades] / before[fades]) ** steps)
-    return P
-
-
-def _continued(times, t):
-    """Weights of values at `times` by which a polynomial through them has its value at `t`."""
-    return np.array(
-        [np.prod([(t - other) / (each - other) for other in times if other != each]) for each in times]
-    )

@@ -261,7 +261,7 @@ def test_a_constant_viscosity_answers_to_no_pressure():
 
 @pytest.mark.parametrize(
     "unit",
-    [" rpm", "RPM", " 1/min", " 1 / min", "/min", " U/min", "Upm", " min-1", " r/min", " min\u207b\u00b9"],
+    [" rpm", "Rpm", " 1/min", " 1 / min", "/min", " U/min", "Upm", " min-1", " r/min", " min\u207b\u00b9"],
 )
 def test_a_rotation_is_read_as_catalogues_print_it(unit):
     """1/min was of what, turns or radians."""
@@ -270,7 +270,8 @@ def test_a_rotation_is_read_as_catalogues_print_it(unit):
 
 
 @pytest.mark.parametrize(
-    "said, is_told", [(6000, True), ("6000 rpm", False), ("628 rad/s", False), (0, False)]
+    "said, is_told",
+    [(6000, True), ("6000 rpm", False), ("628 rad/s", False), (0, False), (628.3185307179587, False)],
 )
 def test_a_rotation_without_a_unit_is_said_to_be_one_of_radians(said, is_told):
     tables = {"body_1": {"rotation": said}}

@@ -23,3 +23,8 @@ def test_a_film_without_a_band_has_four_decimals():
     assert with_band(-0.0, None) == with_band(-4.9e-5, None) == "0.0000", "zero has no sign"
     assert with_band(2e9, None) == "2.000e+09"
     assert with_band(nan, 0.1) == "nan"
+
+
+def test_a_small_coefficient_has_its_digits():
+    assert with_band(2e-10, 1e-11) == "2.000e-10 ± 1.0e-11"
+    assert with_band(3.2e-4, 1.1e-5) == "0.000320 ± 0.000011"

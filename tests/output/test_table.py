@@ -5,7 +5,7 @@ from mgehl.cli import main
 from mgehl.output.pictures.curves import curves
 from mgehl.output.quantities import INSTANT, PASSAGE, QUANTITIES, Told, of_what, read_told, with_means
 from mgehl.output.series import MEANS
-from mgehl.output.table import collect, drawn, with_bands
+from mgehl.output.table import collect, drawn, markdown, with_bands
 
 
 def test_a_control_character_moves_no_cursor_and_markup_is_words():
@@ -99,3 +99,9 @@ def test_columns_without_room_are_drawn_of_rows_that_have_something_there():
     wide, below = drawn(rows, ["u", "load", "film", "why"], width=30, names=2).split("\n\n")
     assert len(wide.splitlines()) == 4
     assert below.splitlines()[2].split(maxsplit=2) == ["2", "10", "no answer at all"]
+
+
+def test_a_key_s_column_is_shown_with_its_unit():
+    rows = [{"run": "a", "motion.speed": "0.5", "grid.nodes": "65", "central nm": "12"}]
+    head = markdown(rows, list(rows[0])).splitlines()[0]
+    assert head == "| run | motion.speed, m/s | grid.nodes | central nm |"
