@@ -245,5 +245,7 @@ def test_a_residual_that_rounding_leaves_holds_on_the_page_too():
     solution = mgehl.solve(mgehl.Config().with_(light))
     result = solution.result
     assert result.converged and solution.config.solver.tolerance < result.residual <= result.residual_limit
-    found = Reader(report(solution, "light"))
-    assert not any("broken" in word for word in found.words)
+    for limit, is_broken in ((result.residual_limit, False), (None, True)):
+        solution.result = replace(result, residual_limit=limit)
+        words = Reader(report(solution, "light")).words
+        assert any("broken" in word for word in words) is is_broken
