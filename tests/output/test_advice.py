@@ -55,6 +55,12 @@ def test_peaks_that_touch_are_told_of_shorter_steps(squeeze, told):
     assert "solver.squeeze" not in "\n".join(advice(recipe={"peaks": "none"}))
 
 
+@pytest.mark.parametrize(("couette", "told"), [("3L", True), ("1B", False)])
+def test_the_first_order_scheme_is_told_of_where_it_was_not_used(couette, told):
+    first = advice(recipe={"couette": couette})[1]
+    assert first.startswith('  discretization.couette = "1B"') is told
+
+
 @pytest.mark.parametrize("settings", [["contact.kind=wedge"], ["discretization.contact_model=dry"]])
 def test_what_has_no_film_is_told_nothing_of_one(settings):
     text = "\n".join(advice(settings))
