@@ -27,7 +27,7 @@ default it would take a fifth more work, and loses others."""
 
 FIRST_ORDER = "1B"
 """Scheme of the Couette flow that has states where 3L has none: of unseen seeds five rollers on 1025 nodes
-(59 to 964 convolutions), of `study mixed` four balls (1475 to 3305). Its films are thicker, of fifteen balls
+(59 to 964 convolutions), of `study mixed` four balls (to 3305). Its films are thicker, of fifteen balls
 by 2 to 100 %."""
 
 OTHER = {
