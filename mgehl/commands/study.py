@@ -2,7 +2,7 @@
 
 Solve the cases of a study; write its tables and pictures.
 
-example: mpiexec -n 2 python -m mgehl study wedge --nodes 65,129
+example: mgehl study wedge --nodes 65,129
 """
 
 from argparse import ArgumentTypeError

@@ -4,7 +4,10 @@ import tomllib
 import pytest
 
 from mgehl.cli import main
+from mgehl.config import load_config
 from mgehl.config_file import chosen_config, default_config
+from mgehl.kinds import contact_from, mesh_from
+from mgehl.output.forecast import effort_of
 from mgehl.output.stored import read_run
 
 FILM = ["run", "--set", "grid.nodes=65", "--set", "motion.speed=3", "--set", "solver.start=film"]
@@ -55,6 +58,11 @@ class TestWithoutAConfiguration:
         mixed = result["mixed"]
         assert 0.304 < result["contact"]["load_fraction"] < 0.309
         assert mixed["patches"] in (12, 13) and 0.032 < mixed["lambda_ratio"] < 0.034
+        taken = result["work"]["convolutions"] + result["error"]["convolutions"]
+        config = load_config(chosen_config())
+        contact = contact_from(config)
+        foretold = effort_of(config, contact, mesh_from(config, contact)).convolutions
+        assert 0.5 < taken / foretold < 2.0
 
     def test_settings_alone_change_the_papers_ball_and_that_is_said(self, tmp_path, capsys):
         assert main(FILM) == 0

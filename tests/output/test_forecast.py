@@ -47,10 +47,11 @@ def test_speeds_are_those_that_the_nested_iteration_solves_at(speed, changes):
 @pytest.mark.parametrize(
     "name, settings",
     [("full_film", {"grid.nodes": 129, "motion.speed": 0.5}), ("point_contact", {"grid.nodes": 129}),
-     ("rough", {}), ("rough", {"discretization.contact_model": "dry"})],
-    ids=["full film", "contact", "rough", "dry"],
+     ("rough", {"discretization.contact_model": "dry"})],
+    ids=["full film", "contact", "dry"],
 )  # fmt: skip
 def test_runs_take_half_to_twice_the_convolutions(one_second, name, settings):
+    """As the rough ball does in test_run_command.py."""
     config = load_config(CONFIGS / f"{name}.toml", settings)
     result = solve(config, MPI.COMM_SELF).result
     bands = 0.0 if config.is_dry else result.error.convolutions

@@ -17,7 +17,6 @@ from mgehl.studies.study import PAPER, papers_grid
 
 RANKS = 5
 CASES = {
-    "film": {"motion": {"speed": 3.0}, "grid": papers_grid(65)},
     "film on coarse grids, too": {"motion": {"speed": 8.0}, "grid": papers_grid(129)},
     "contact": PAPER | {"motion": {"speed": 5e-6}, "grid": papers_grid(65), "solver": {"start": "contact"}},
     "wedge": {"contact": {"kind": "wedge"}, "wedge": {"pillar": "square"}, "grid": {"nodes": 65}},
