@@ -11,7 +11,7 @@ import numpy as np
 
 from mgehl.output.film_error import FILMS
 from mgehl.studies.columns import told
-from mgehl.studies.limits import JudgedBand, cells, summary
+from mgehl.studies.limits import FRICTION, PRESSURE, Banded, cells, summary
 from mgehl.studies.study import BEST, merged
 
 NODES, CASES, SEED = (65, 129, 257), 40, 11
@@ -27,9 +27,8 @@ RATIOS, LAWS = (0.5, 1.0, 1.0, 2.0, 4.0), ("barus", "roelands")
 SLIDES = 0.02
 """Slide-to-roll ratio: Newtonian friction, which does not thin the film."""
 
-PRESSURE, FRICTION = "largest pressure", "friction"
-UNITS = dict.fromkeys(FILMS, " nm") | {PRESSURE: " GPa", FRICTION: ""}
-"""What has a band: its unit as a table has it."""
+BANDED = {each: Banded(f"{each}_film_nm", f"error.{each}_nm", " nm") for each in FILMS}
+BANDED |= {"largest pressure": PRESSURE, "friction": FRICTION}
 
 DOMAINS = (
     (40.0, {"x": [-6.0, 3.0], "y": [-4.5, 4.5]}),
@@ -44,7 +43,7 @@ def run(study):
     nodes = study.asked.nodes or NODES
     contacts = study.drawn(draw, CASES, SEED)
     study.expected = len(contacts) * (len(nodes) + 1)
-    rows, bands = [], {name: [] for name in UNITS}
+    rows, bands = [], {name: [] for name in BANDED}
     for name, contact in contacts.items():
         grids = *nodes, 2 * nodes[-1] - 1
         tables = {f"{name}, {n} nodes": merged(contact, {"grid": {"nodes": n}}) for n in grids}
@@ -53,7 +52,7 @@ def run(study):
             continue
         limits = limits_of(found[-1].result.error) | _limits_of_loads(*found[-2:])
         for solution in found[:-1]:
-            own = {each: _band(each, solution.result, limits[each]) for each in UNITS}
+            own = {each: of.judged(solution.result, limits[each]) for each, of in BANDED.items()}
             rows.append(_row(name, solution, own))
             for each, band in own.items():
                 bands[each].append(band)
@@ -94,30 +93,15 @@ def limits_of(error):
 
 def _limits_of_loads(coarse, fine):
     """The same of what else has bands, which is of the second order in the spacing."""
-    coarser, finer = (each.result for each in (coarse, fine))
-    loads = [name for name in UNITS if name not in FILMS]
-    return {name: (4.0 * _value(name, finer) - _value(name, coarser)) / 3.0 for name in loads}
-
-
-def _value(name, result):
-    """A number that has a band."""
-    if name in FILMS:
-        return getattr(result, f"{name}_film_nm")
-    return result.max_pressure_GPa if name == PRESSURE else result.friction.coefficient
-
-
-def _band(name, result, limit):
-    """The band about it, beside its limit."""
-    halves = {each: getattr(result.error, f"{each}_nm") for each in FILMS}
-    halves |= {PRESSURE: result.max_pressure_band_GPa, FRICTION: result.friction.coefficient_band}
-    return JudgedBand(_value(name, result), halves[name], limit)
+    loads = {name: of.value for name, of in BANDED.items() if name not in FILMS}
+    return {name: (4.0 * of(fine.result) - of(coarse.result)) / 3.0 for name, of in loads.items()}
 
 
 def _row(name, solution, bands):
     result = solution.result
     row = {"contact": name, "nodes": str(solution.mesh.nx), **told(result, "inlet cells")}
     for each, band in bands.items():
-        row |= cells(each, band, UNITS[each])
+        row |= cells(each, band, BANDED[each].unit)
     more = f"{100.0 * result.error.convolutions / result.work.convolutions:.0f}"
     why = "" if result.error.central_nm is not None else result.error.how
     return row | {"more work %": more, "no band": why}

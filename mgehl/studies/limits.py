@@ -1,6 +1,7 @@
 """Orders and limits of numbers on grids that are each twice as fine; whether bands hold the limits."""
 
 from math import isfinite, log2, nan
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -63,6 +64,26 @@ class JudgedBand(NamedTuple):
         if not self.known or not self.off > 0.0:
             return ""
         return f"{self.half_width / self.off:.2f}{'' if self.holds else ' !'}"
+
+
+class Banded(NamedTuple):
+    """A number that has a band: where a `Result` has both, and its unit as a table has it."""
+
+    number: str
+    half_width: str
+    unit: str = ""
+
+    def value(self, result):
+        """The number of a `Result`."""
+        return attrgetter(self.number)(result)
+
+    def judged(self, result, limit):
+        """The `JudgedBand` of a `Result`."""
+        return JudgedBand(self.value(result), attrgetter(self.half_width)(result), limit)
+
+
+PRESSURE = Banded("max_pressure_GPa", "max_pressure_band_GPa", " GPa")
+FRICTION = Banded("friction.coefficient", "friction.coefficient_band")
 
 
 def cells(name, band, unit=" nm"):

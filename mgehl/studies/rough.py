@@ -5,11 +5,9 @@ Each grid's band is asked for what the finest grid finds. Nothing is extrapolate
 order.
 """
 
-from typing import NamedTuple
-
 from mgehl.studies import machine, rollers
 from mgehl.studies.columns import told
-from mgehl.studies.limits import JudgedBand, cells, summary
+from mgehl.studies.limits import FRICTION, PRESSURE, Banded, cells, summary
 from mgehl.studies.study import merged
 
 GRIDS = {"line": (513, 1025, 2049), "point": (65, 129, 257)}
@@ -28,25 +26,13 @@ SLIDES = {
 """Friction that does not thin the film."""
 
 
-class Banded(NamedTuple):
-    """A number that has a band: how to get both from a `Result`, and its unit as a table has it."""
-
-    value: object
-    half_width: object
-    unit: str = ""
-
-
 BANDED = {
-    "mean gap": Banded(lambda r: r.mixed.mean_gap_nm, lambda r: r.mixed.error.mean_nm, " nm"),
-    "gap by pressure": Banded(lambda r: r.mixed.loaded_gap_nm, lambda r: r.mixed.error.loaded_nm, " nm"),
-    "largest pressure": Banded(lambda r: r.max_pressure_GPa, lambda r: r.max_pressure_band_GPa, " GPa"),
-    "load on contact": Banded(
-        lambda r: r.mixed.contact_load_share, lambda r: r.mixed.error.contact_load_share
-    ),
-    "load on solids": Banded(
-        lambda r: r.mixed.solid_load_fraction, lambda r: r.mixed.error.solid_load_fraction
-    ),
-    "friction": Banded(lambda r: r.friction.coefficient, lambda r: r.friction.coefficient_band),
+    "mean gap": Banded("mixed.mean_gap_nm", "mixed.error.mean_nm", " nm"),
+    "gap by pressure": Banded("mixed.loaded_gap_nm", "mixed.error.loaded_nm", " nm"),
+    "largest pressure": PRESSURE,
+    "load on contact": Banded("mixed.contact_load_share", "mixed.error.contact_load_share"),
+    "load on solids": Banded("mixed.solid_load_fraction", "mixed.error.solid_load_fraction"),
+    "friction": FRICTION,
 }
 
 
@@ -58,7 +44,9 @@ def run(study):
     for name, (kind, tables) in drawn.items():
         *coarse, finest = _on_grids(study, name, tables, GRIDS[kind])
         for solution in coarse if finest else ():
-            judged = {each: _judged(of, solution.result, finest.result) for each, of in BANDED.items()}
+            judged = {
+                each: of.judged(solution.result, of.value(finest.result)) for each, of in BANDED.items()
+            }
             rows.append(_row(name, solution, judged))
             for each, band in judged.items():
                 bands.setdefault(f"{each}, {kind}", []).append(band)
@@ -87,10 +75,6 @@ def _on_grids(study, name, tables, grids):
 
 def _converged(solution):
     return solution is not None and solution.result.converged
-
-
-def _judged(of, result, finest):
-    return JudgedBand(of.value(result), of.half_width(result), of.value(finest))
 
 
 def _row(name, solution, judged):
