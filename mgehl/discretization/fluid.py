@@ -49,7 +49,8 @@ class Fluid:
         fluid = replace(self, eps=eps, deps_dP=rigid, deps_dH=rigid)
         if self.across is None:
             return fluid
-        return replace(fluid, across=eps * (self.across / self.eps), dacross_dP=rigid, dacross_dH=rigid)
+        easier = np.divide(self.across, self.eps, out=np.ones(np.shape(eps)), where=self.eps > 0.0)
+        return replace(fluid, across=eps * easier, dacross_dP=rigid, dacross_dH=rigid)
 
     def of(self, lines):
         """That of some lines of nodes (a slice): views."""

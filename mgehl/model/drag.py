@@ -1,4 +1,4 @@
-"""What drags bodies that roll and slide beyond the domain, where all is full of oil.
+"""What drags bodies that roll and slide beyond the domain, where all is full of oil but the wake.
 
 Around a point contact the pressure is p = -K x/h^2, as of rigid bodies [Kapitza 1955], in the gap of the
 pressed ones. Beside a line contact it rises by dp/dx = 12 eta u (h - h_c)/h^3. Oil between
@@ -20,6 +20,9 @@ WAYS = 360
 
 STEP = 1e-4
 """Over the distance: of the differences that tell how the gap opens along the motion."""
+
+TORN = 1.0 / 3.0
+"""Distance downstream over that beside at which the film around a ball tears."""
 
 NODES, WEIGHTS = (0.5 * each for each in np.polynomial.legendre.leggauss(32))
 """Of the quadrature along a line contact, about its middle: good to ten digits."""
@@ -62,17 +65,53 @@ def line_shear_beyond(contact, x, downstream):
     near = 0.5 + NODES
     total = 0.0
     for end in (-x[0], x[1])[: 1 + downstream]:
-        gap = contact.flooded_film + contact.film_scale * contact.dry_gap(end / near, None)
+        gap = _gap(contact, contact.x_scale * end / near, None)
         total += float(np.sum(WEIGHTS * end / near**2 * _shear_stress(contact, gap)))
     return contact.x_scale * total
 
 
 def point_shear_beyond(contact, x, y, downstream):
     """The same in N, from the end of a domain, at `x` and `y` in units of X and Y, as far as in
-    `point_drag_beyond`."""
-    return _integral_beyond(
-        contact, x, y, downstream, lambda px, py: _shear_stress(contact, _gap(contact, px, py))
-    )
+    `point_drag_beyond`. Where the film tears, downstream what goes on beside the domain; `wake_shear` is
+    what goes on behind it."""
+
+    def sheared(px, py):
+        return _shear_stress(contact, _gap(contact, px, py))
+
+    found = _integral_beyond(contact, x, y, downstream, sheared)
+    return found if downstream else found + _beside_the_wake(contact, x, y)
+
+
+def _beside_the_wake(contact, x, y):
+    """Shear in N of the oil that flows past a domain: full up to the line on which it tears, then in the
+    streamers that leave that line."""
+    c, s = contact.motion
+    full = 0.5 + NODES[:, None]  # of the way to that line
+    total = 0.0
+    for left in (1.0, -1.0):
+        end = max(left * (c * py * contact.y_scale - s * px * contact.x_scale) for px in x for py in y)
+        far = max(end, contact.radius_y if c > s else contact.radius_x)
+        beside = end * (far / end) ** (0.5 + NODES)  # evenly in its logarithm
+        torn_x, torn_y = TORN * beside * c, TORN * beside * s
+        side_x, side_y = -s * left * beside, c * left * beside
+        before = _shear_stress(contact, _gap(contact, side_x + full * torn_x, side_y + full * torn_y))
+        line = side_x + torn_x, side_y + torn_y
+        sheared = TORN * beside * (WEIGHTS @ before) + wake_shear(contact, *line, _gap(contact, *line))
+        total += float(np.log(far / end) * (WEIGHTS @ (beside * sheared)))
+    return total
+
+
+def wake_shear(contact, x, y, content):
+    """Shear of the oil behind points of a domain's end, at `x` and `y` in m (None of a line contact), in N
+    per m across the motion, shape as theirs. There the gap is torn: a streamer goes on along the motion
+    with its `content`, the oil in m that the gap holds."""
+    c, s = contact.motion
+    reached = c * x + (0.0 if y is None else s * y)
+    near = 0.5 + NODES[:, None]  # reached/distance, from infinity to the domain's end
+    way = reached / near - reached
+    gap = _gap(contact, x + way * c, None if y is None else y + way * s)
+    sheared = _shear_stress(contact, gap) * np.minimum(content / gap, 1.0)
+    return WEIGHTS @ (reached / near**2 * sheared)
 
 
 def _integral_beyond(contact, x, y, downstream, stress):
@@ -88,8 +127,8 @@ def _integral_beyond(contact, x, y, downstream, stress):
 
 
 def _gap(contact, x, y):
-    """Of a point contact, in m at (x, y) in m: that of the dry contact and a formula's film."""
-    dry = contact.dry_gap(x / contact.x_scale, y / contact.y_scale)
+    """In m at (x, y) in m: that of the dry contact and a formula's film. A line contact has no y."""
+    dry = contact.dry_gap(x / contact.x_scale, None if y is None else y / contact.y_scale)
     return contact.flooded_film + contact.film_scale * dry
 
 

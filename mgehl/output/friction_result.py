@@ -10,7 +10,7 @@ from mgehl.output.digits import with_band
 from mgehl.output.film_error import UNSETTLED
 from mgehl.solver.gaps import gaps
 from mgehl.solver.heat import rise_of
-from mgehl.solver.shear import flows_out_whole, shear_of
+from mgehl.solver.shear import flows_out_whole, shear_of, shear_of_wake
 
 
 @dataclass(frozen=True)
@@ -125,9 +125,12 @@ def friction_result(problem, state, steady=True):
 
 def _beyond(problem, state):
     """What rolling and sliding take from the bodies beyond the domain."""
-    contact, where = problem.contact, (problem.grid.mesh, flows_out_whole(problem, state))
-    slides = contact.friction.slide_to_roll != 0.0
-    return contact.drag_beyond(*where), contact.shear_beyond(*where) if slides else 0.0
+    contact, whole = problem.contact, flows_out_whole(problem, state)
+    where = problem.grid.mesh, whole
+    dragged = contact.drag_beyond(*where)
+    if contact.friction.slide_to_roll == 0.0:
+        return dragged, 0.0
+    return dragged, contact.shear_beyond(*where) + (0.0 if whole else shear_of_wake(problem, state))
 
 
 def _temperatures(problem, state, rise):

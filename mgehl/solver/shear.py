@@ -7,6 +7,7 @@ import numpy as np
 from mgehl.discretization.axes import own
 from mgehl.discretization.status import CAVITATED, CONTACT, is_fluid, is_solid, open_faces
 from mgehl.model.conditions import Conditions
+from mgehl.model.drag import wake_shear
 
 TINY = 1e-300
 """No pressure at all: nothing is carried."""
@@ -50,6 +51,27 @@ def flows_out_whole(problem, state):
     torn = state.status == CAVITATED
     lines = np.arange(grid.first, grid.last) == grid.mesh.ny - 2
     return not grid.count(torn[:, -2]) + (0 if grid.mesh.is_line else grid.count(torn[lines]))
+
+
+def shear_of_wake(problem, state):
+    """Shear of the oil that leaves the domain where the film is torn, in N, of a line contact in N/m
+    (collective): it takes from bodies that slide as long as it lies between them."""
+    grid, contact, law = problem.grid, problem.contact, problem.scheme.contact_law
+    mesh, sense = grid.mesh, problem.sense
+    last, end = (-2, 1) if sense > 0.0 else (1, 0)
+    full = np.where(state.status == CAVITATED, state.filling, 1.0)
+    content = contact.film_scale * full * law.flow_gap(state.H)[0]
+    x = sense * contact.x_scale * mesh.X
+    if mesh.is_line:
+        return float(wake_shear(contact, x[[-end]], None, content[0, [last]])[0])
+    y, lines = sense * contact.y_scale * mesh.Y, np.arange(grid.first, grid.last)
+    inside = (lines > 0) & (lines < mesh.ny - 1)
+    behind = wake_shear(contact, np.full(inside.sum(), x[-end]), y[lines[inside]], content[inside, last])
+    total = contact.motion[0] * contact.y_scale * mesh.dY * behind.sum()
+    for row in content[lines == (mesh.ny + last) % mesh.ny, 1:-1]:
+        beside = wake_shear(contact, x[1:-1], np.full(mesh.nx - 2, y[-end]), row)
+        total += contact.motion[1] * contact.x_scale * mesh.dX * beside.sum()
+    return grid.sum(total)
 
 
 def coefficient(problem, state):
