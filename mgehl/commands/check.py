@@ -108,7 +108,7 @@ def _inlet(case):
     start, shuts = config.solver.start, scheme_from(config, contact).contact_law.closes_faces
     expected = resolution.expectation(grids[-1].cells, start, contact.is_mixed, shuts)
     yield f"expected   from a {start} start, {expected}"
-    on_domain = resolution.domain_words(found.domain, found.domain_loss_percent)
+    on_domain = resolution.domain_words(found)
     peaks = resolution.peaks_words(contact, mesh)
     yield from _under("domain", [resolution.room_words(mesh), on_domain, *peaks])
     beyond = resolution.beyond_words(found.load_beyond_percent, at_most=scene is not None)

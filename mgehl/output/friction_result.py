@@ -186,8 +186,9 @@ def with_moments(friction, arms):
     return replace(friction, **dict(zip(("moment_1_Nm", "moment_2_Nm"), moments, strict=True)))
 
 
-def friction_lines(friction, verbose):
-    """What resists, in words: of sliding surfaces, and `verbose` of rolling ones, too."""
+def friction_lines(friction, verbose, at_a_spike=False):
+    """What resists, in words: of sliding surfaces, and `verbose` of rolling ones, too. `at_a_spike`: the
+    largest pressure is the grid's, and so is what it lets the oil bear."""
     if not friction or not (verbose or friction.slide_to_roll or friction.model != "newtonian"):
         return
     unit = "/m" if friction.per_metre else ""
@@ -203,10 +204,11 @@ def friction_lines(friction, verbose):
     sheared, more = friction.sliding_beyond, ""
     if sheared > TOLD * friction.coefficient:
         more = f" (and {sheared:.2g} beyond the domain, were it flooded)"
+    spike = " (the grid's)" if at_a_spike and friction.solid_coefficient == 0.0 else ""
     yield (
         f"friction {coefficient_words(friction)} ({friction.model}): film "
         f"{friction.film_coefficient:.5f}{more}, solids {friction.solid_coefficient:.5f}; {rolling}; "
-        f"{friction.power_loss_W:.3g} W{unit}, largest shear {friction.largest_shear_MPa:.4g} MPa"
+        f"{friction.power_loss_W:.3g} W{unit}, largest shear {friction.largest_shear_MPa:.4g} MPa{spike}"
     )
     yield from strength_lines(friction.largest_shear_MPa)
     if friction.model == "own" and friction.coefficient < LEAST:
@@ -214,7 +216,7 @@ def friction_lines(friction, verbose):
     if friction.temperatures:
         yield _temperature_words(friction.temperatures)
     if friction.is_the_grids:
-        yield "friction is the grid's: another grid gives another coefficient"
+        yield "no band of friction: another grid may give another coefficient"
 
 
 def coefficient_words(friction):

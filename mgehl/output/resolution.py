@@ -8,6 +8,7 @@ from math import isfinite, isnan, nan
 from mgehl.config import COARSEST_NODES
 from mgehl.kinds.loaded import speed_words
 from mgehl.model.contact import RESOLVED_CELLS
+from mgehl.model.far_field import MOST
 from mgehl.model.peaks import reach_of_peaks
 from mgehl.model.starvation import Starvation
 from mgehl.output import surface
@@ -93,7 +94,8 @@ def resolution(contact, mesh, scene=None, film=None):
     by_formula = film is None or scene is not None
     cells = inlet_cells(contact, mesh, scene) if by_formula else inlet_cells_of(contact, mesh, film)
     lost = film_lost(contact, mesh, scene)
-    domain, beyond = domain_verdict(lost), load_beyond(contact, mesh, scene)
+    beyond = load_beyond(contact, mesh, scene)
+    domain = STARVED if _is_most(beyond) else domain_verdict(lost)
     verdict = "coarse" if cells >= SEEN_CELLS else "grid-determined"
     if cells >= RESOLVED_CELLS:
         verdict = "resolved" if domain == SUFFICIENT else domain
@@ -202,24 +204,33 @@ def domain_verdict(lost):
     return STARVED if lost >= STARVED_FROM else SUFFICIENT
 
 
-def domain_words(verdict, lost):
-    """A verdict and its estimate in words."""
+def domain_words(resolution):
+    """The verdict on a domain and its estimate in words."""
+    verdict, lost = resolution.domain, resolution.domain_loss_percent
     if verdict == UNKNOWN:
         return "not judged: made by an older version"
     if verdict == STANDS:
         return "of a point contact what is squeezed out beyond it is counted, as between rigid bodies"
     if verdict == SUFFICIENT:
         return f"sufficient: twice the size would change the film by some {lost:.1f} %"
+    much = "far more than" if _is_most(resolution.load_beyond_percent) else "some"
     return (
-        f"starved: twice the size would change the film by some {lost:.2g} %; "
+        f"starved: twice the size would change the film by {much} {lost:.2g} %; "
         'grid.x = "auto" and grid.y = "auto" choose one as large as the nodes allow, up to 1000 a'
     )
+
+
+def _is_most(percent):
+    """Whether such a part of the load is as much as may be missing: the domain cuts the film itself, and
+    what is reckoned of either is too little."""
+    return abs(percent) >= 100.0 * MOST
 
 
 def beyond_words(percent, at_most=False):
     """How much of the load the film in a domain need not carry, in a list; empty where hardly any.
     `at_most`: of the instants of a run in time."""
-    part = f"{'up to ' if at_most else ''}{abs(percent):.1f} % of it"
+    least = "at least " if _is_most(percent) else ""
+    part = f"{'up to ' if at_most and not least else least}{abs(percent):.1f} % of it"
     words = f"{part} is carried beyond the domain or lost at its sides, the rest within"
     if percent < 0.0:
         words = f"{part} more is carried within: behind the domain, film that is not torn sucks"

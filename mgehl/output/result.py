@@ -10,6 +10,7 @@ from mgehl.output.mixed_result import MixedResult
 from mgehl.output.resolution import Resolution
 from mgehl.output.surface import SurfaceOnGrid
 from mgehl.output.words import result_words
+from mgehl.solver.gaps import NARROW
 from mgehl.solver.inequality import Inequality
 from mgehl.solver.mass import CLOSED, Mass
 from mgehl.solver.verification import NOT_SEEN, Edge
@@ -239,6 +240,11 @@ class Result:
         if self.mass and self.mass.made_share > CLOSED:
             return "oil is made"
         return self.edge.wrong[0] or "Eq. 2 is broken"
+
+    @property
+    def is_a_spike(self):
+        """Whether the largest pressure is that of a spike which the grid does not hold."""
+        return self.max_pressure_band_GPa is None and (self.pressure_crest or 0.0) > NARROW
 
     @property
     def verdict(self):

@@ -15,7 +15,6 @@ from mgehl.output.resolution import (
 )
 from mgehl.output.surface import GRIDS, surface_words
 from mgehl.output.time_words import SPIKE, time_lines
-from mgehl.solver.gaps import NARROW
 
 HARDLY = 2e-3
 """Part of a film by which shear must thin it to be told."""
@@ -114,7 +113,7 @@ def _loaded_lines(result, verbose):
     yield from _overlap(result.overlap)
     yield from _contact(result, verbose)
     yield f"inlet: {inlet_words(resolution, advice(result))}"
-    room = domain_words(resolution.domain, resolution.domain_loss_percent)
+    room = domain_words(resolution)
     # Nothing is known of the film of a domain that cuts the contact.
     yield f"domain: {'too small: it cuts the contact' if result.edge.cuts else room}"
     beyond = beyond_words(resolution.load_beyond_percent, at_most=bool(result.time))
@@ -123,7 +122,7 @@ def _loaded_lines(result, verbose):
         yield f"surface: {shown}"
     if result.mixed:
         yield from mixed_lines(result.mixed)
-    yield from friction_lines(result.friction, verbose)
+    yield from friction_lines(result.friction, verbose, result.is_a_spike)
     yield from thinning_words(result)
     yield _work(result)
     if verbose:
@@ -289,10 +288,8 @@ def band_words(error):
 
 def largest_pressure_words(result):
     """The largest pressure of a `Result` with its band; else whether the grid holds it."""
-    band = result.max_pressure_band_GPa
-    is_narrow = band is None and (result.pressure_crest or 0.0) > NARROW
-    spike = f" ({SPIKE}: the grid's)" if is_narrow else ""
-    return f"{pressure_words(result.max_pressure_GPa, band)}{spike}"
+    spike = f" ({SPIKE}: the grid's)" if result.is_a_spike else ""
+    return f"{pressure_words(result.max_pressure_GPa, result.max_pressure_band_GPa)}{spike}"
 
 
 def span(ends):

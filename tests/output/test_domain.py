@@ -5,7 +5,14 @@ from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.kinds.time import scene_of
-from mgehl.output.resolution import beyond_words, film_lost, load_beyond, resolution, resolving_nodes
+from mgehl.output.resolution import (
+    beyond_words,
+    domain_words,
+    film_lost,
+    load_beyond,
+    resolution,
+    resolving_nodes,
+)
 
 CASE = {
     "contact": {"load": 250.0, "radius_x": 10e-3, "radius_y": 15e-3}, "motion": {"speed": 3.0},
@@ -60,11 +67,26 @@ def judged(contact, mesh, scene=None):
 
 
 @pytest.mark.parametrize(
-    "percent, said", [(0.04, []), (3.0, "3.0 % of it is"), (-6.19, "6.2 % of it more is")]
+    "percent, said",
+    [
+        (0.04, []),
+        (3.0, "3.0 % of it is"),
+        (-6.19, "6.2 % of it more is"),
+        (50.0, "at least 50.0 % of it is"),
+    ],
 )
 def test_what_lies_beyond_the_domain_is_told_and_what_sucks_there(percent, said):
     words = beyond_words(percent)
     assert words == said or words[0].startswith(said)
+
+
+def test_a_domain_that_cuts_the_film_itself_takes_more_than_is_reckoned():
+    """7 % were told, and a domain of twice the size had 25 % more film."""
+    light = {"moes": {"M": 4.0, "L": 1.5}, "grid": {"nodes": 65, "x": [-2.5, 1.5], "y": [-2.0, 2.0]}}
+    config = config_from_tables(light)
+    contact = contact_from(config)
+    found = resolution(contact, mesh_from(config, contact))
+    assert found.domain == "starved" and "by far more than " in domain_words(found)
 
 
 def test_the_recommended_grid_is_the_first_that_resolves():
