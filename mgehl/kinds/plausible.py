@@ -53,9 +53,9 @@ THICKEST = {True: 3e-6, False: 50e-6}
 STEEPEST_HEIGHTS = 0.2
 """Rms slope of a surface whose square, 4 %, Reynolds' equation and the half-space can no longer neglect."""
 
-SLENDER = 8.0
-"""R_x/R_y from which on no formula is made for the contact. Solved films are 1.3, 1.4 and 1.5 times
-Nijenbanning's at 10, 20 and 34, and half and less of Hamrock and Dowson's."""
+LONGER, SLENDER = 2.0, 8.0
+"""R_x/R_y from which on formulas are not made for the contact. Solved films are 1.2, 1.3, 1.4 and 1.5 times
+Nijenbanning's at 3, 10, 20 and 34; of Hamrock and Dowson's .89 at 3, then half and less."""
 
 AGAINST = 2.0
 """Slide-to-roll ratio from which on one body moves against the other; one in per cent is as large, too."""
@@ -156,10 +156,12 @@ def _pressure(contact):
 
 
 def _films(config, contact):
-    if not contact.is_line and contact.aligned.radius_x > SLENDER * contact.aligned.radius_y:
+    long = 0.0 if contact.is_line else contact.aligned.radius_x / contact.aligned.radius_y
+    if long > LONGER:
+        far, off = ("far ", "half") if long > SLENDER else ("", "a fifth")
         yield (
-            "the contact is far longer along the motion than it is wide: film formulas, lambda and the "
-            "regime are made for others, and off by half"
+            f"the contact is {far}longer along the motion than it is wide: film formulas, lambda and the "
+            f"regime are made for others, and off by {off}"
         )
     known = contact.formulas
     film = next(film for name, film in known.items() if formula_of(name).bodies == "any")

@@ -218,15 +218,17 @@ class PointContact(LoadedContact):
 
     @property
     def formulas(self):
-        """As of any contact; along neither axis that made for it, too."""
+        """As of any contact; that made for any direction too, where the motion is not across the longer
+        axis."""
         like, groups = self.in_formulas, self.in_formulas.groups
         radii, ellipse = (like.radius_x, like.radius_y), (like.radius_x, 1.0 / like.k_e)
+        oblique = 0.0 not in self.motion or like.radius_x > like.radius_y
         return {
             **films.both("hamrock_dowson", films.hamrock_dowson(groups, *ellipse)),
             "nijenbanning_venner_moes": films.nijenbanning_venner_moes(groups, *radii),
             "grubin": like.grubin_film,
             **films.both("hamrock_dowson_soft", films.hamrock_dowson_soft(groups, *ellipse)),
-            **({} if 0.0 in self.motion else films.both("chittenden", films.chittenden(groups, *radii))),
+            **(films.both("chittenden", films.chittenden(groups, *radii)) if oblique else {}),
         }
 
     @property

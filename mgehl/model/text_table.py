@@ -7,11 +7,13 @@ bare commas do not separate them. A line before the first numbers is a heading.
 import csv
 import re
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from mgehl.errors import UserError
+from mgehl.model.thousands import IN_BLANKS, ambiguous
 
 COMMENTS = ("#", "%", "//")
 
@@ -73,7 +75,8 @@ class TextTable:
 def read_table(path):
     """The `TextTable` of a file. Raises OSError, FileError; NoTableError where it has no row of numbers."""
     rows, lines, separator, empty, headings, above = [], [], None, [], [], []
-    for number, line in enumerate(read_content(path).splitlines(), 1):
+    text = read_content(path).splitlines()
+    for number, line in enumerate(text, 1):
         if not line.strip(" ") or _is_comment(line):
             headings += [line.strip().lstrip("#%/ ")] if line.strip() else []
             continue
@@ -81,6 +84,8 @@ def read_table(path):
             break
         if not rows:
             separator = _separator(line)
+            if not separator and (column := _in_blanks(line)):
+                raise _no_number(path, number, *column)
             if separator is False:
                 empty.append((number, line))
                 headings.append(line)
@@ -95,6 +100,9 @@ def read_table(path):
         raise _no_rows(path, empty)
     values = _rectangle(path, rows, lines)
     columns = values.shape[1]
+    of_rows = {line: text[line - 1] for line in lines}
+    if what := ambiguous(values, of_rows, separator, partial(_row_words, separator, columns)):
+        raise FileError(path, what)
     return TextTable(
         values, lines, headings, _heading(above, columns, separator), _top(above, columns, separator)
     )
@@ -220,6 +228,22 @@ def _separator(line):
             if any(map(_is_number, words)) and all(_is_number(w) or _is_hole(w) for w in words):
                 return separator
     return False
+
+
+def _in_blanks(line):
+    """(Column, words) of a number whose thousands blanks mark, between other separators; None without."""
+    for separator in (each for each in (";", "\t") if each in line):
+        words = _words(line, separator)
+        if found := next((k for k, word in enumerate(words, 1) if IN_BLANKS.fullmatch(word)), None):
+            return found, words
+    return None
+
+
+def _row_words(separator, columns, line):
+    """The words of a row without the empty ones before and behind its numbers, as `_rectangle` has them."""
+    words = _words(line, separator)
+    before = next((k for k, word in enumerate(words) if word), 0) if len(words) > columns else 0
+    return words[before : before + columns]
 
 
 def _words(line, separator):
