@@ -84,6 +84,8 @@ def _of_list(config, key, text, told):
     items = [_ITEM.fullmatch(item) for item in text.split(",")]
     if not all(items):
         raise ConfigError(f'{told}: must be as "50,100,200 N" or "50..200 N:4"')
+    if grouped := next((item[1] for item in items if re.match(r"[-+]?0\d", item[1])), None):
+        raise ConfigError(f"{told}: {grouped} is no number: commas separate values, thousands need none")
     units = [item[2] for item in items]
     if any(units[:-1]) and not all(units):
         raise ConfigError(f"{told}: give each number its unit, or all of them one at the end")

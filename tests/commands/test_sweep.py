@@ -217,6 +217,7 @@ def test_several_keys_are_a_snake_there_and_back():
         (["motion.speed=1e-30..1 m/s:3"], "must be at least 1e-12"),
         (["motion.speed=1"], "fewer than two"),
         (["motion.speed=1,1"], "same value twice"),
+        (["contact.load=950,1,050 N"], "050 is no number"),
         (["motion.angle=log(0..10 deg:3)"], "log needs ends above 0"),
         (["motion.spede=1,2"], "unknown key; did you mean motion.speed?"),
         (["lubricant.viscosity_law=barus,roelands"], "only keys with a number"),

@@ -2,6 +2,7 @@ import os
 import re
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from places import CONFIGS
 
@@ -92,6 +93,20 @@ def test_formulas_are_not_made_for_contacts_that_are_long_along_the_motion(radiu
     settings = {"contact.radius_x": radius, "contact.radius_y": "5 mm", "contact.load": "100 N"}
     found = [line for line in odd(BALL | settings) if "film formulas" in line]
     assert (off in found[0]) if off else not found
+
+
+@pytest.mark.parametrize(
+    ("height", "spacing", "said"),
+    [(1e-12, 2e-6, "the unit of the file's heights"), (1e-7, 2e-3, "the unit of the file's spacing"),
+     (1e-7, 2e-6, None)],
+)  # fmt: skip
+def test_heights_and_spacings_that_have_another_unit_are_odd(tmp_path, height, spacing, said):
+    """Steps of 2 mm for 2 um made a lambda of 48 for .56, and "resolved"."""
+    path = tmp_path / "heights.txt"
+    np.savetxt(path, height * np.random.default_rng(1).standard_normal((200, 200)))
+    settings = {"surface.file": str(path), "surface.height_unit": "m", "surface.spacing": spacing}
+    found = [line for line in odd(BALL | settings) if "the unit of the file" in line]
+    assert (said in found[0]) if said else not found
 
 
 HIP = {
