@@ -31,7 +31,7 @@ def yes(holds):
 COLUMNS = {
     "ranks": ("ranks", "d"),
     "converged": ("converged", yes),
-    "load N": ("load_N", ".6g"),
+    "load N": ("load_N", ".8g"),
     "load ± N": ("load_band_N", ".4g"),
     "largest pressure MPa": ("max_pressure_MPa", ".5g"),
     "central nm": ("central_film_nm", ".4f"),
@@ -46,21 +46,21 @@ COLUMNS = {
     "approach ± um": ("dry_error.approach_um", ".4g"),
     "residual": ("residual", ".1e"),
     "load error": ("load_error", ".1e"),
-    "load on contact": ("contact.load_fraction", ".4f"),
+    "load on contact": ("contact.load_fraction", ".5f"),
     "load on contact ±": ("mixed.error.contact_load_share", ".4g"),
-    "load on solids": ("mixed.solid_load_fraction", ".4f"),
+    "load on solids": ("mixed.solid_load_fraction", ".5f"),
     "load on solids ±": ("mixed.error.solid_load_fraction", ".4g"),
-    "contact/Hertz area": ("contact.area_fraction", ".4f"),
+    "contact/Hertz area": ("contact.area_fraction", ".5f"),
     "contact/Hertz area ±": ("dry_error.area_fraction", ".4g"),
-    "mean gap nm": ("mixed.mean_gap_nm", ".6g"),
+    "mean gap nm": ("mixed.mean_gap_nm", ".7g"),
     "loaded gap nm": ("mixed.loaded_gap_nm", ".6g"),
     "mean gap ± nm": ("mixed.error.mean_nm", ".4g"),
     "loaded gap ± nm": ("mixed.error.loaded_nm", ".4g"),
-    "friction": ("friction.coefficient", ".4g"),
+    "friction": ("friction.coefficient", ".6g"),
     "friction ±": ("friction.coefficient_band", ".4g"),
     "friction of film": ("friction.film_coefficient", ".4g"),
     "friction of solids": ("friction.solid_coefficient", ".4g"),
-    "rolling friction": ("friction.rolling_coefficient", ".4g"),
+    "rolling friction": ("friction.rolling_coefficient", ".6g"),
     "rolling friction ±": ("friction.rolling_band", ".4g"),
     "flash 1 K": ("friction.temperatures.largest_1", ".4g"),
     "flash 2 K": ("friction.temperatures.largest_2", ".4g"),
@@ -75,7 +75,8 @@ COLUMNS = {
     "domain": ("resolution.domain", "s"),
     "convolutions": ("work.convolutions", ".1f"),
 }
-"""What each column shows: where it is in result.json, and its format or a function."""
+"""What each column shows: where it is in result.json, and its format or a function. What has a band is
+rounded by that, and has digits enough before."""
 
 OF_HEAT = "flash 1 K", "flash 2 K", "film K"
 """Columns that only runs with temperatures have."""
