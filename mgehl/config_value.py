@@ -48,7 +48,7 @@ kg/m3, mPa.s, Ns/m2, r/min, 1/min, RPM, Upm, and the angstrom's sign."""
 
 _PERCENT = re.compile(r"\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?)\s*%\s*")
 
-EXAMPLES = {"K": "60 degC", "rad/s": "6000 rpm"}
+EXAMPLES = {"K": "60 degC", "rad/s": "6000 rpm", "1/Pa": "20 1/GPa", "Pa*s": "40 mPa*s", "Pa": "5 MPa"}
 """Values of units that people seldom say in SI."""
 
 ANGLES = ("revolution", "turn", "radian", "degree", "grade")

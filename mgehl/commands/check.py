@@ -158,8 +158,9 @@ def _estimate(config, contact, mesh, ranks):
     else:
         yield f"           {found.measured};"
     cores = "1 core" if found.workers == 1 else f"{found.workers} cores"
+    one = "one" if found.convolutions else "a convolution"
     yield (
-        f"           one takes {1e3 * found.convolution_seconds:.3g} ms, by n log n from "
+        f"           {one} takes {1e3 * found.convolution_seconds:.3g} ms, by n log n from "
         f"{found.timed_nodes} nodes timed just now; {cores} at work"
     )
     if found.convolutions:

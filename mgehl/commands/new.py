@@ -13,9 +13,7 @@ from mgehl.kinds import KINDS
 
 def add(parser):
     parser.add_argument("name", metavar="NAME", help="name of the file, with or without .toml")
-    parser.add_argument(
-        "--kind", choices=tuple(KINDS), default="point", help="kind of contact (default: point)"
-    )
+    parser.add_argument("--kind", choices=tuple(KINDS), help="kind of contact (default: NAME's, or point)")
     parser.add_argument("--force", action="store_true", help="replace a file that exists")
 
 
@@ -29,6 +27,7 @@ def execute(options):
         raise UserError(f"{options.name}: is no name of a file")
     if path.exists() and not options.force:
         raise OutputError(f"{path} exists: add --force to replace it, or choose another name")
-    write_whole(path, template(options.kind, path))
+    kind = options.kind or (path.stem if path.stem in KINDS else "point")
+    write_whole(path, template(kind, path))
     name = printable(str(path))
     print(f"{name}: change what differs in your case, then: mpiexec -n 2 python -m mgehl run {name}")

@@ -27,7 +27,7 @@ MORE_THAN_ITS_OWN, LARGEST_CHECKED = 10.0, 1e9
 """Own laws are checked up to so many times 6 eta u L/h^2 above the ambient pressure, at most up to so many
 Pa. By a constant viscosity no pad reaches that once; a viscosity that rises adds to it."""
 
-EFFORT = Effort(1.0, 17e-6, 0.1, 900.0, "a wedge makes no convolutions", False)
+EFFORT = Effort(1.0, 17e-6, 0.1, 900.0, "a wedge makes none, and takes the time of some", False)
 TEARING = replace(EFFORT, node_seconds=1.2e-4)
 """The same where its film may tear: 2, 5 and 40 s on 129, 257 and 513 nodes a side."""
 

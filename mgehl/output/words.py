@@ -52,20 +52,19 @@ def _contact_is_the_grids(result):
     return bool(compared and result.mixed.patches and error.contact_load_share is None)
 
 
-def _load_in_N(result):
+def _bearing_load(result):
     """A bearing's load with its band, or why it has none."""
-    band = result.load_band_N
+    band, own_unit = result.load_band_N, f"({result.load:.6g} mm)"
     if band:
-        return f"{with_band(result.load_N, band)} N"
-    if band is not None:
-        return f"{result.load_N:.4g} N"  # nothing on both grids
-    return f"{result.load_N:.4g} N" + (f", no band: {result.load_band_how}" if result.converged else "")
+        return f"{with_band(result.load_N, band)} N {own_unit}"
+    why = f", no band: {result.load_band_how}" if band is None and result.converged else ""
+    return f"{result.load_N:.4g} N {own_unit}{why}"  # a band of 0 is nothing on both grids
 
 
 def _bearing_lines(result):
     yield (
-        f"load {result.load:.6g} mm ({_load_in_N(result)}), P from {result.min_P:.6g} to "
-        f"{result.max_P:.6g} /mm (at most {result.max_pressure_MPa:.4g} MPa)"
+        f"load {_bearing_load(result)}; pressure at most {result.max_pressure_MPa:.4g} MPa (P from "
+        f"{result.min_P:.6g} to {result.max_P:.6g} /mm)"
     )
     if result.min_P < 0.0:
         yield "the film pulls where P is below 0; discretization.cavitation = true lets it tear there"
