@@ -222,6 +222,12 @@ class Result:
     load_band_N: float | None = None
     """Half-width of the load's band; None where there is none: `load_band_how` says why, or by what."""
     load_band_how: str = ""
+    drag_N: float = None
+    """What drags the plate against its motion; None in older results, as the two that follow."""
+    drag_power_W: float = None
+    """That times the plate's speed."""
+    pressure_centre_mm: float = None
+    """X about which the load has no moment; None without a load."""
     max_P: float = None
     min_P: float = None
     max_pressure_MPa: float = None

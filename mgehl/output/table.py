@@ -33,6 +33,7 @@ COLUMNS = {
     "converged": ("converged", yes),
     "load N": ("load_N", ".8g"),
     "load ± N": ("load_band_N", ".4g"),
+    "drag N": ("drag_N", ".5g"),
     "largest pressure MPa": ("max_pressure_MPa", ".5g"),
     "central nm": ("central_film_nm", ".4f"),
     "minimum nm": ("minimum_film_nm", ".4f"),

@@ -8,6 +8,7 @@ from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, WALL
 from mgehl.output.film_error import no_band
 from mgehl.output.result import Result
 from mgehl.solver.mass import account, beside_open_sides
+from mgehl.solver.pad_drag import pad_drag
 from mgehl.solver.verification import closed_face_flow, flux_imbalance
 
 ROUNDING = 1e-12
@@ -34,6 +35,7 @@ def summarise_wedge(problem, outcome, wall_s, versions):
     if not (grid.mesh.is_line or bearing.closed_sides):
         beside = beside_open_sides(problem, evaluation, unit)
         mass = replace(mass, enters=mass.enters + beside, leaves=mass.leaves + beside)
+    drag = pad_drag(problem, state)
     flows = max(mass.enters, mass.leaves) > ROUNDING * carries  # nothing does behind walls all around
     return Result(
         converged=outcome.converged,
@@ -41,6 +43,9 @@ def summarise_wedge(problem, outcome, wall_s, versions):
         reason=outcome.reason,
         load=load,
         load_N=load * bearing.pressure_scale * bearing.x_scale * bearing.y_scale,
+        drag_N=across * drag.plate_N,
+        drag_power_W=across * drag.plate_N * bearing.speed,
+        pressure_centre_mm=drag.centre_mm,
         max_P=largest,
         min_P=grid.min(state.P),
         max_pressure_MPa=1e-6 * bearing.pressure_scale * largest,

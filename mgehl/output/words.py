@@ -66,6 +66,10 @@ def _bearing_lines(result):
         f"load {_bearing_load(result)}; pressure at most {result.max_pressure_MPa:.4g} MPa (P from "
         f"{result.min_P:.6g} to {result.max_P:.6g} /mm)"
     )
+    if result.drag_N is not None:
+        part = f", {result.drag_N / result.load_N:.3g} of the load" if result.load_N > 0.0 else ""
+        at = f"; the load rests on x = {result.pressure_centre_mm:.4g} mm" if part else ""
+        yield f"friction on the plate {result.drag_N:.4g} N{part}, {result.drag_power_W:.4g} W{at}"
     if result.min_P < 0.0:
         yield "the film pulls where P is below 0; discretization.cavitation = true lets it tear there"
     yield (
