@@ -38,18 +38,25 @@ _PRINTED = (
     (re.compile(r"(?<=[A-Za-z])\.(?=[A-Za-z])"), lambda _: "*"),
     (re.compile(r"\b(m?)Pas\b"), lambda m: f"{m[1]}Pa*s"),
     (re.compile(r"\bNs\b"), lambda _: "N*s"),
+    (re.compile(r"\bfpm\b"), lambda _: "ft/min"),
     (re.compile(r"(?<=\d)\s*(?:(?:r|U|rev|\s1)? ?/ ?min|\smin\^-1|(?i:rpm|upm))$"), lambda _: " rpm"),
     (re.compile("[\u00c5\u212b]"), lambda _: "angstrom"),
     (re.compile(r"(?<=/)\s*(?:°C|degC)\b"), lambda _: "K"),  # a difference
     (re.compile(r"(?<=[WJ]) */ *(m|kg|m\^?3)[ *]*K\b"), lambda m: f"/{m[1].replace('m3', 'm^3')}/K"),
 )
 """How data sheets print units that pint reads in another form: mPa·s, mm²/s, mm s-1, W/(m K), mPas,
-kg/m3, mPa.s, Ns/m2, r/min, 1/min, RPM, Upm, and the angstrom's sign."""
+kg/m3, mPa.s, Ns/m2, fpm, r/min, 1/min, RPM, Upm, and the angstrom's sign."""
 
 _PERCENT = re.compile(r"\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?)\s*%\s*")
 
 EXAMPLES = {"K": "60 degC", "rad/s": "6000 rpm", "1/Pa": "20 1/GPa", "Pa*s": "40 mPa*s", "Pa": "5 MPa"}
 """Values of units that people seldom say in SI."""
+
+MASSES = {"lb": "lbf", "lbs": "lbf", "kg": "kgf", "g": "gf"}
+"""Units of mass that people write for forces."""
+
+OF_TABLES = (".csv", ".txt", ".tsv", ".dat")
+"""How files end that a key without a course in time was given."""
 
 ANGLES = ("revolution", "turn", "radian", "degree", "grade")
 """Units of which an angle or a rotation must have one: pint takes 100 Hz for 100 rad/s, and 5 for 5 rad."""
@@ -193,9 +200,14 @@ def _with_unit(key, unit, text, instead=""):
         raise
     except _pint().DimensionalityError:
         wrong, other = "wrong unit" if units else "has no unit", f"; {instead}" if instead else ""
+        if unit == "N" and units in MASSES:
+            wrong = f"is a mass, its weight is in {MASSES[units]}"
         raise WrongUnitError(f"{key} = {shown(text)}: {wrong}; must be {example}{other}") from None
     except Exception:
-        raise ConfigError(f"{key} = {shown(text)}: not understood; must be {example}") from None
+        why = "not understood"
+        if text.strip().lower().endswith(OF_TABLES):
+            why = "follows no table: only speed, angle and load change with time"
+        raise ConfigError(f"{key} = {shown(text)}: {why}; must be {example}") from None
 
 
 @cache

@@ -39,7 +39,7 @@ def share_of(body, slide_to_roll):
     return {STILL: 0.0, MOVING: 2.0, BODY_1: 1.0 + slip, BODY_2: 1.0 - slip}[body]
 
 
-LENGTHS = ("m", "mm", "um", "µm", "nm", "pm")
+LENGTHS = ("m", "mm", "um", "µm", "nm", "pm", "in", "uin")
 """Units that keys name."""
 
 

@@ -33,7 +33,7 @@ COMMA_AND_BLANK = ", "
 """Between numbers with decimal commas: 0,29, 0,31."""
 
 UNIT_ALONE = re.compile(
-    r"[\[(]?(?:[kmunpµ\u03bc]?[msN]|cm|min|inch|deg|°|-|k?N/m?m|[kmcunµ\u03bc]?m/[sh])[\])]?"
+    r"[\[(]?(?:[kmunpµ\u03bc]?[msN]|cm|min|[uµ\u03bc]?in|inch|deg|°|-|k?N/m?m|[kmcunµ\u03bc]?m/[sh])[\])]?"
 )
 """A cell of a line of units below that of names."""
 

@@ -23,6 +23,11 @@ UNITS = {
     "A": 1e-10,
     "Å": 1e-10,
     "pm": 1e-12,
+    "in": 25.4e-3,
+    "inch": 25.4e-3,
+    "uin": 25.4e-9,
+    "µin": 25.4e-9,
+    "μin": 25.4e-9,
 }
 """Lengths in m, as files and configurations name them."""
 

@@ -1,6 +1,7 @@
 """Heights from text: a matrix of heights, or x y z of a point in each line, or x z of a profile.
 
-Headings tell units: over the columns of x, y and z, and Gwyddion's and SPIP's, which tell sizes too.
+Headings tell units: over the columns of x, y and z, and Gwyddion's and SPIP's, which tell sizes too. Those
+of an ESRI grid tell its step and what stands for a hole.
 """
 
 import re
@@ -31,6 +32,8 @@ _TOLD = {
     "x": re.compile(rf"{_BEGIN}(?:width|breite|x-length)\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
     "y": re.compile(rf"{_BEGIN}(?:height|höhe|y-length)\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
     "pixel": re.compile(rf"\bpixel\s+size\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
+    "cell": re.compile(rf"\bcellsize\s+({NUMBER})()", re.I),
+    "hole": re.compile(rf"\bnodata_value\s+({NUMBER})()", re.I),
     "factor": re.compile(rf"\bheight conversion factor \(->\s*m\)\s*=\s*({NUMBER})()", re.I),
     "unit": re.compile(r"()\b(?:value units?|z-unit)\s*[:=]\s*([^\s;]+)", re.I),
     "length unit": re.compile(r"()\bx-unit\s*[:=]\s*([^\s;]+)", re.I),
@@ -45,6 +48,10 @@ def read_text(path):
     columns = table.values.shape[1]
     if columns == 2:
         return _from_profile(path, table)
+    if "hole" in told:
+        table.values[table.values == told["hole"][0]] = np.nan
+    if "cell" in told:  # a grid of maps, whose first row is the northern one
+        return Map(path, table.values[::-1], *(told["cell"][0],) * 2)
     is_matrix = columns != 3 or not told.keys().isdisjoint(("x", "y", "pixel"))
     found = _from_matrix(path, table) if is_matrix else _from_points(path, table)
     return _with_heading(found, told)

@@ -81,6 +81,25 @@ def test_headings_tell_sizes_and_units(tmp_path, heading, dx, dy, position, heig
     np.testing.assert_array_equal(found.heights, Z)
 
 
+def test_a_grid_of_maps_begins_in_the_north_and_tells_its_holes(tmp_path):
+    heading = "ncols 4\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 2.5\nNODATA_value -9999\n"
+    rows = matrix(" ").splitlines()
+    rows[0] = " ".join(["-9999", *rows[0].split()[1:]])
+    (tmp_path / "z.asc").write_text(heading + "\n".join(rows))
+    found, expected = read_map(tmp_path / "z.asc"), Z[::-1].astype(float)
+    expected[-1, 0] = np.nan
+    np.testing.assert_array_equal(found.heights, expected)
+    assert (found.dx, found.dy, found.position_unit) == (2.5, 2.5, None)
+
+
+def test_heights_in_microinches(tmp_path):
+    (tmp_path / "z.csv").write_text(
+        "X (in),Z (uin)\n" + "".join(f"{0.001 * k:.3f},{k % 3}\n" for k in range(9))
+    )
+    found = read_map(tmp_path / "z.csv")
+    assert (found.position_unit, found.height_unit) == (25.4e-3, 25.4e-9)
+
+
 @pytest.mark.parametrize("form", ["{:.5g}", "{:.4e}"])
 def test_coordinates_of_five_digits_are_a_grid(tmp_path, form):
     """320 by 240 points .49261 um apart: of the largest coordinates steps are .49 or .5."""
