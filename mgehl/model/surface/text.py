@@ -5,6 +5,7 @@ of an ESRI grid tell its step and what stands for a hole.
 """
 
 import re
+from dataclasses import replace
 
 import numpy as np
 
@@ -25,6 +26,12 @@ COUNTS = "the first {} counts from 0 on: it is taken for numbers of {}s, not for
 MANY = 8
 """Evenly spaced heights in a row from which on they are hardly so by chance."""
 
+NAMES = {
+    axis: re.compile(rf"\W*(?:{names})\b", re.I)
+    for axis, names in {"x": "x|position|distance", "y": "y", "z": "z|height"}.items()
+}
+"""What columns of coordinates and heights are called."""
+
 _BEGIN = r"(?:^|[^\w ]) *(?:(?:scan|image|map) +)?"
 """What stands before a size: a "max height" is none."""
 
@@ -43,7 +50,7 @@ _TOLD = {
 
 def read_text(path):
     """The `Map` of a text file. Raises FileError, where there is no row of numbers NoTableError."""
-    table = read_table(path)
+    table = _of_axes(read_table(path))
     told = _told(table.headings)
     columns = table.values.shape[1]
     if columns == 2:
@@ -165,9 +172,7 @@ def _is_apart(rows):
 
 def _from_points(path, table):
     """The `Map` of points (n, 3) of a rectangle, in any order; those that are missing are holes."""
-    order, lines = _order(table.heading), table.lines
-    units = _units(table.heading and [table.heading[k] for k in order])
-    table = table.values[:, order]
+    lines, units, table = table.lines, _units(table.heading), table.values
     wrong = ~np.isfinite(table[:, :2])
     if wrong.any():
         row, column = np.argwhere(wrong)[0]
@@ -192,11 +197,16 @@ def _from_points(path, table):
     return Map(path, heights, dx, dy, height_unit, unit)
 
 
-def _order(heading):
-    """Columns of x, y and z by the names over them; as they stand where these are no such names."""
-    names = [re.match(r"\W*([xyz])\b", cell, re.I) for cell in heading or ()]
-    names = [name and name[1].lower() for name in names]
-    return [names.index(axis) for axis in "xyz"] if {"x", "y", "z"} == {*names} else [0, 1, 2]
+def _of_axes(table):
+    """The table's columns of x and z, or of x, y and z, in this order, by the names over them; all of it
+    where these are no such names."""
+    cells = table.heading or ()
+    named = [next((axis for axis, name in NAMES.items() if name.match(cell)), None) for cell in cells]
+    axes = [axis for axis in NAMES if named.count(axis) == 1]
+    if len(axes) < 2 or "z" not in axes or any(named.count(axis) > 1 for axis in NAMES):
+        return table
+    columns = [named.index(axis) for axis in axes]
+    return replace(table, values=table.values[:, columns], heading=[cells[k] for k in columns])
 
 
 def _from_profile(path, table):

@@ -92,6 +92,20 @@ def test_a_grid_of_maps_begins_in_the_north_and_tells_its_holes(tmp_path):
     assert (found.dx, found.dy, found.position_unit) == (2.5, 2.5, None)
 
 
+@pytest.mark.parametrize(
+    ("heading", "columns"),
+    [("No.;X [mm];Z [um]", "kxz"), ("Z [um];X [mm]", "zx"), ("x (mm);height (um);quality", "xzk")],
+)  # fmt: skip
+def test_columns_of_a_profile_are_those_of_their_names(tmp_path, heading, columns):
+    rows = [{"k": k, "x": 0.001 * k, "z": k % 3} for k in range(9)]
+    lines = (";".join(f"{row[name]:g}" for name in columns) for row in rows)
+    (tmp_path / "z.csv").write_text("\n".join([heading, *lines]))
+    found = read_map(tmp_path / "z.csv")
+    np.testing.assert_array_equal(found.heights[0], [k % 3 for k in range(9)])
+    assert found.dx == pytest.approx(0.001)
+    assert (found.position_unit, found.height_unit) == (1e-3, 1e-6)
+
+
 def test_heights_in_microinches(tmp_path):
     (tmp_path / "z.csv").write_text(
         "X (in),Z (uin)\n" + "".join(f"{0.001 * k:.3f},{k % 3}\n" for k in range(9))
