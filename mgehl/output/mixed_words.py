@@ -14,8 +14,11 @@ def mixed_lines(mixed):
     patches = _counted(mixed.patches)
     unit = mixed.area_unit.replace("µm²", "um^2")
     largest = f", the largest {1e12 * mixed.largest_patch_m2:.4g} {unit}" if mixed.patches else ""
+    ratio = f"lambda {_known(mixed.lambda_ratio)} ({_ratio_words(mixed)})"
+    if not mixed.Sq_nm:
+        ratio = "no roughness is within the contact"
     return [
-        f"lambda {_known(mixed.lambda_ratio)} ({_ratio_words(mixed)}): contact carries {_shares(mixed)}",
+        f"{ratio}: contact carries {_shares(mixed)}",
         f"real contact area {1e12 * mixed.contact_area_m2:.4g} {unit}, "
         f"{100 * mixed.contact_area_over_hertz:.2f} % of the Hertz area, in {patches}{largest}",
         *_carried_by_solids(mixed),
