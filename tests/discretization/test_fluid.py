@@ -6,6 +6,7 @@ import pytest
 from mgehl.discretization.contact_law import InterfaceConditions, UnifiedEquations
 from mgehl.discretization.fluid import face_mobility, fluid_state
 from mgehl.discretization.scheme import Scheme
+from mgehl.model.rheology import Eyring, Friction
 
 LCIC = InterfaceConditions()
 ONE, TWO, EIGHT = np.ones(1), np.array([2.0]), np.array([8.0])
@@ -99,3 +100,12 @@ def test_the_smallest_gap_of_the_unified_equations_is_the_least_of_the_mobility(
     assert (floored.deps_dH[below] == 0.0).all()
     for name in ("eps", "deps_dP", "deps_dH"):
         np.testing.assert_array_equal(getattr(floored, name)[above], getattr(free, name)[above])
+
+
+def test_a_closed_gap_that_shear_thins_has_no_mobility_along_or_across(paper_contact):
+    """0/0 of it were nan on coarse grids, where bodies overlap."""
+    thinned = paper_contact(friction=Friction(Eyring(6e6), slide_to_roll=1.0, thins=True))
+    fluid = fluid_state(np.zeros(3), np.array([-0.1, 0.0, 0.3]), thinned, UnifiedEquations(0.0))
+    again = fluid.with_mobility(fluid.eps)
+    np.testing.assert_allclose(again.across, fluid.across, rtol=1e-14)
+    assert again.across[2] > 0.0 and not again.across[1]
