@@ -235,11 +235,12 @@ def test_motion_that_has_turned_is_motion_of_its_direction(tmp_path, monkeypatch
 
 
 def test_rolling_drags_against_a_reversed_motion_as_against_one_that_is_turned(tmp_path):
-    start = solved()
+    start = solved(motion__slide_to_roll=0.1)
     (tmp_path / "speed.csv").write_text(f"0,0.09\n{0.01 * UNIT},-0.09\n1,-0.09\n")
     (tmp_path / "angle.csv").write_text("0,0\n1e-7,180\n1,180\n")
     courses = ({"motion.speed": str(tmp_path / "speed.csv")}, {"motion.angle": str(tmp_path / "angle.csv")})
-    wide = {"grid.x": [-2.5, 2.5], "grid.y": [-2.0, 2.0], "time.end": 0.5 * UNIT}
+    wide = {"grid.x": [-2.5, 2.0], "grid.y": [-2.0, 2.0], "time.end": 0.5 * UNIT}
+    wide["motion.slide_to_roll"] = 0.1
     reversed_, turned = (
         mgehl.solve(mgehl.load(None, BALL | wide | course), start=start) for course in courses
     )
@@ -248,6 +249,12 @@ def test_rolling_drags_against_a_reversed_motion_as_against_one_that_is_turned(t
         turned.rows[-1]["rolling"], rel=0.01
     )
     assert reversed_.motion == pytest.approx(turned.motion, abs=1e-12) == (-1.0, 0.0)
+    for beyond in (
+        "rolling_beyond",
+        "sliding_beyond",
+    ):  # twice of it were told, of a film that does not tear
+        found = [getattr(each.summary.friction, beyond) for each in (reversed_, turned)]
+        assert found[0] == pytest.approx(found[1], rel=0.01) != 0.0
 
 
 def test_the_path_goes_on_where_a_run_of_another_direction_starts_from_it(turned):

@@ -53,9 +53,6 @@ THICKEST = {True: 3e-6, False: 50e-6}
 STEEPEST_HEIGHTS = 0.2
 """Rms slope of a surface whose square, 4 %, Reynolds' equation and the half-space can no longer neglect."""
 
-SMOOTHEST = 0.5e-9
-"""Sq in m below which heights have another unit than was told."""
-
 LONGER, SLENDER = 2.0, 8.0
 """R_x/R_y from which on formulas are not made for the contact. Solved films are 1.2, 1.3, 1.4 and 1.5 times
 Nijenbanning's at 3, 10, 20 and 34; of Hamrock and Dowson's .89 at 3, then half and less."""
@@ -150,15 +147,9 @@ def _unit_of_a_file(config, contact):
     """Measured heights that are none of a contact's roughness."""
     if not (config.surface.file or config.second_surface.file):
         return
-    rms, size = contact.roughness, min(contact.x_scale, contact.y_scale)
-    if 0.0 < rms < SMOOTHEST:
-        yield (
-            f"Sq = {1e9 * rms:.3g} nm within the contact: the smoothest polished bodies have "
-            f"{1e9 * SMOOTHEST:g} nm: look at the unit of the file's heights"
-        )
-    at = np.linspace(-1.0, 1.0, 65)
+    at, size = np.linspace(-1.0, 1.0, 65), max(contact.x_scale, contact.y_scale)
     shortest = contact.surface.shortest(contact.x_scale * at, contact.y_scale * at)
-    if shortest > size:
+    if size < shortest < np.inf:
         yield (
             f"the surface's shortest wave is {1e3 * shortest:.3g} mm, the contact's semi-axis "
             f"{1e3 * size:.3g} mm: it has no roughness: look at the unit of the file's spacing"

@@ -22,7 +22,7 @@ STEP = 1e-4
 """Over the distance: of the differences that tell how the gap opens along the motion."""
 
 TORN = 1.0 / 3.0
-"""Distance downstream over that beside at which the film around a ball tears."""
+"""Distance downstream over that beside at which the film tears: around a ball, and near enough another."""
 
 NODES, WEIGHTS = (0.5 * each for each in np.polynomial.legendre.leggauss(32))
 """Of the quadrature along a line contact, about its middle: good to ten digits."""
@@ -45,7 +45,7 @@ def point_drag_beyond(contact, x, y, downstream):
     """Half of the integral of h dp/dx along the motion, in N, from the end of a domain, at `x` and `y` in
     units of X and Y, to a radius of curvature away, where bodies are no paraboloids any more: it grows with
     the logarithm of that distance. Upstream, and `downstream`, too; gap as in `line_drag_beyond`."""
-    motion_x, motion_y = contact.motion
+    motion_x, motion_y = _motion(contact)
     radii, lubricant, speed = (contact.radius_x, contact.radius_y), contact.lubricant, contact.speed
     K_x = kapitza_factor(lubricant, speed * motion_x, *radii)
     K_y = kapitza_factor(lubricant, speed * motion_y, *radii[::-1])
@@ -85,7 +85,7 @@ def point_shear_beyond(contact, x, y, downstream):
 def _beside_the_wake(contact, x, y):
     """Shear in N of the oil that flows past a domain: full up to the line on which it tears, then in the
     streamers that leave that line."""
-    c, s = contact.motion
+    c, s = _motion(contact)
     full = 0.5 + NODES[:, None]  # of the way to that line
     total = 0.0
     for left in (1.0, -1.0):
@@ -104,14 +104,21 @@ def _beside_the_wake(contact, x, y):
 def wake_shear(contact, x, y, content):
     """Shear of the oil behind points of a domain's end, at `x` and `y` in m (None of a line contact), in N
     per m across the motion, shape as theirs. There the gap is torn: a streamer goes on along the motion
-    with its `content`, the oil in m that the gap holds."""
-    c, s = contact.motion
-    reached = c * x + (0.0 if y is None else s * y)
-    near = 0.5 + NODES[:, None]  # reached/distance, from infinity to the domain's end
-    way = reached / near - reached
+    with its `content`, the oil in m that the gap holds, and no film heals."""
+    c, s = _motion(contact)
+    far = np.abs(x) if y is None else np.hypot(x, y)
+    # What lies before the middle of the contact counts as upstream.
+    abeam = np.maximum(-(c * x + (0.0 if y is None else s * y)), 0.0)
+    near = 0.5 + NODES[:, None]  # from infinity to there
+    way = abeam + far * (1.0 / near - 1.0)
     gap = _gap(contact, x + way * c, None if y is None else y + way * s)
     sheared = _shear_stress(contact, gap) * np.minimum(content / gap, 1.0)
-    return WEIGHTS @ (reached / near**2 * sheared)
+    return WEIGHTS @ (far / near**2 * sheared)
+
+
+def _motion(contact):
+    """Its parts along X and Y, neither below 0: the domain's ends are turned to it."""
+    return tuple(map(abs, contact.motion))
 
 
 def _integral_beyond(contact, x, y, downstream, stress):
@@ -122,7 +129,8 @@ def _integral_beyond(contact, x, y, downstream, stress):
     far = np.maximum(1.0 / (c**2 / contact.radius_x + s**2 / contact.radius_y), near)
     r = near * (far / near) ** (0.5 + NODES[:, None])  # evenly in its logarithm, as what is sheared falls
     of_each = np.log(far / near) * (WEIGHTS @ (r**2 * stress(r * c, r * s)))
-    counted = (c * contact.motion[0] + s * contact.motion[1] < 0.0) | downstream
+    motion_x, motion_y = _motion(contact)
+    counted = (c * motion_x + s * motion_y < 0.0) | downstream
     return float(2.0 * np.pi * np.mean(np.where(counted, of_each, 0.0)))
 
 

@@ -98,10 +98,10 @@ def read_table(path):
         lines.append(number)
     if not rows:
         raise _no_rows(path, empty)
-    values = _rectangle(path, rows, lines)
+    values, before = _rectangle(path, rows, lines)
     columns = values.shape[1]
     of_rows = {line: text[line - 1] for line in lines}
-    if what := ambiguous(values, of_rows, separator, partial(_row_words, separator, columns)):
+    if what := ambiguous(values, of_rows, separator, partial(_row_words, separator, before, columns)):
         raise FileError(path, what)
     return TextTable(
         values, lines, headings, _heading(above, columns, separator), _top(above, columns, separator)
@@ -231,19 +231,21 @@ def _separator(line):
 
 
 def _in_blanks(line):
-    """(Column, words) of a number whose thousands blanks mark, between other separators; None without."""
+    """(Column, words) of a number whose thousands blanks mark, where a line is of numbers between other
+    separators; None without."""
     for separator in (each for each in (";", "\t") if each in line):
         words = _words(line, separator)
-        if found := next((k for k, word in enumerate(words, 1) if IN_BLANKS.fullmatch(word)), None):
-            return found, words
+        found = [IN_BLANKS.fullmatch(word) is not None for word in words]
+        if any(found) and all(
+            blank or _is_number(word) or _is_hole(word) for blank, word in zip(found, words, strict=True)
+        ):
+            return found.index(True) + 1, words
     return None
 
 
-def _row_words(separator, columns, line):
-    """The words of a row without the empty ones before and behind its numbers, as `_rectangle` has them."""
-    words = _words(line, separator)
-    before = next((k for k, word in enumerate(words) if word), 0) if len(words) > columns else 0
-    return words[before : before + columns]
+def _row_words(separator, before, columns, line):
+    """The words of a row's columns, behind so many cells that are empty in all rows."""
+    return _words(line, separator)[before : before + columns]
 
 
 def _words(line, separator):
@@ -280,12 +282,14 @@ def _row(path, line, text, separator):
 
 
 def _rectangle(path, rows, lines):
-    """Rows as an array. Empty cells that all rows have before or behind their numbers are none."""
-    for end in (0, -1):
+    """Rows as an array, and how many cells are left out before it: empty ones that all rows have before or
+    behind their numbers are none."""
+    for end in (-1, 0):
+        behind = len(rows[0])
         while all(len(row) > 1 and row[end] is None for row in rows):
             for row in rows:
                 del row[end]
     for row, line in zip(rows, lines, strict=True):
         if len(row) != len(rows[0]):
             raise FileError(path, f"line {line} has {len(row)} numbers, line {lines[0]} has {len(rows[0])}")
-    return np.array(rows, dtype=float)
+    return np.array(rows, dtype=float), behind - len(rows[0])

@@ -12,6 +12,9 @@ GROUPED = re.compile(r"[-+]?[1-9]\d{0,2}[.,]\d{3}")
 IN_BLANKS = re.compile(r"[-+]?\d{1,3}(?:[ '\u00a0\u202f]\d{3})+(?:[.,]\d*)?")
 """1 050, which a separator has left whole."""
 
+_DECIMAL = re.compile(r"[.,](?!\d{3}(?!\d))|(?<!\d)0[.,]|\d{4}[.,]|[eE]")
+"""A mark that is none of thousands: it makes all of the file's decimal ones."""
+
 _COMMA, _POINT = re.compile(r"[-+]?\d+,\d+"), re.compile(r"[-+]?\d+\.\d+")
 _QUOTED_COMMA = re.compile(r'"\s*([-+]?\d+,\d+)\s*"')
 
@@ -33,9 +36,8 @@ def _two_marks(rows, separator):
     if not point:
         return None
     (line, word), (other, number) = comma, point
-    return (
-        f"line {line} has {word!r}, line {other} {number!r}: which is the decimal mark? Thousands need none"
-    )
+    what = f"line {line} has {word!r}, line {other} {number!r}"
+    return f"{what}: which is the decimal mark? Thousands need none"
 
 
 def _first(rows, pattern, mark):
@@ -52,25 +54,36 @@ def _quoted(rows, separator):
 
 
 def _grouped(values, rows, words_of):
-    """Where in a column all numbers with a mark are of thousandths, as 1.050, and others reach from 100 to
-    999."""
-    few = values.shape[1] <= FEW_COLUMNS
-    for column in np.arange(values.shape[1])[:, None] if few else [np.arange(values.shape[1])]:
-        some = np.abs(np.nan_to_num(values[:, column]))
-        marked, plain = some != np.round(some), (some >= 100.0) & (some == np.round(some))
-        if not marked.any() or not plain.any() or some.max() >= 1000.0 or some[marked].min() < 1.0:
+    """Where no mark is a decimal one for certain, and numbers of hundreds without a mark stand beside some
+    that have one and go on more smoothly with a thousand times of them."""
+    if any(map(_DECIMAL.search, rows.values())):
+        return None
+    lines, words = list(rows), [words_of(text) for text in rows.values()]
+    marked = np.array([[bool(GROUPED.fullmatch(word)) for word in row] for row in words])
+    size = np.abs(np.nan_to_num(values, posinf=0.0, neginf=0.0))
+    plain = (size >= 100.0) & (size < 1000.0) & ~marked
+    thousandfold = np.where(marked, 1e3 * size, size)
+    for column in _quantities(marked):
+        some = np.ix_(np.arange(len(lines)), column)
+        if not plain[some].any() or size[some][~marked[some]].max() >= 1000.0:
             continue
-        if np.abs(1e3 * some - np.round(1e3 * some)).max() > 1e-6:
-            continue
-        words = [words_of(text) for text in rows.values()]
-        if any(re.search("[.,]", word) and not GROUPED.fullmatch(word) for word in chain(*words)):
-            return None  # somewhere the mark is a decimal one for certain
-        if not any(re.search("[.,]", words[row][column[k]]) for row, k in np.argwhere(plain)):
-            row, k = np.argwhere(marked)[0]
-            return _two_readings(list(rows)[row], words[row][column[k]])
+        if _turns(thousandfold[some]) < _turns(size[some]):
+            row, place = np.argwhere(marked[some])[0]
+            return _two_readings(lines[row], words[row][column[place]])
     return None
+
+
+def _quantities(marked):
+    """The columns of each quantity that has a mark somewhere."""
+    with_marks = np.flatnonzero(marked.any(axis=0))
+    return with_marks[:, None] if marked.shape[1] <= FEW_COLUMNS else [with_marks] * bool(with_marks.size)
+
+
+def _turns(size):
+    """How far the logarithms of numbers go up and down: down a column, of several along the rows."""
+    return np.abs(np.diff(np.log1p(size), axis=int(size.shape[1] > 1))).sum()
 
 
 def _two_readings(line, word):
     whole, decimal = re.sub("[.,]", "", word), word.replace(",", ".")
-    return f"line {line}: {str(word)!r} may be {decimal} or {whole}: thousands need no mark"
+    return f"line {line}: {word!r} may be {decimal} or {whole}: write {whole}, or {word}0"

@@ -10,7 +10,7 @@ from mgehl.output.digits import with_band
 from mgehl.output.film_error import UNSETTLED
 from mgehl.solver.gaps import gaps
 from mgehl.solver.heat import rise_of
-from mgehl.solver.shear import flows_out_whole, shear_of, shear_of_wake
+from mgehl.solver.shear import as_the_motion_goes, flows_out_whole, shear_of, shear_of_wake
 
 
 @dataclass(frozen=True)
@@ -126,7 +126,7 @@ def friction_result(problem, state, steady=True):
 def _beyond(problem, state):
     """What rolling and sliding take from the bodies beyond the domain."""
     contact, whole = problem.contact, flows_out_whole(problem, state)
-    where = problem.grid.mesh, whole
+    where = as_the_motion_goes(problem), whole
     dragged = contact.drag_beyond(*where)
     if contact.friction.slide_to_roll == 0.0:
         return dragged, 0.0

@@ -221,9 +221,9 @@ def domain_words(resolution):
 
 
 def _is_most(percent):
-    """Whether such a part of the load is as much as may be missing: the domain cuts the film itself, and
-    what is reckoned of either is too little."""
-    return abs(percent) >= 100.0 * MOST
+    """Whether so much of the load is missing as is ever reckoned: the domain cuts the film itself, and what
+    is reckoned of either is too little."""
+    return percent >= 100.0 * MOST
 
 
 def beyond_words(percent, at_most=False):

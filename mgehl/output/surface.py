@@ -13,8 +13,8 @@ RESOLVED_NODES, SEEN_NODES = 8.0, 4.0
 HARDLY_CURVED = 20.0
 """Radius of a surface's form over the contact's larger one from which on it changes no contact."""
 
-SMOOTHEST = 1e-10
-"""Rms in m below which heights are hardly those of a surface: an atom is as large."""
+SMOOTHEST = 2e-10
+"""Rms in m below which heights are hardly those of a surface: wafers and mica have as much."""
 
 ROUGHEST = 20e-6
 """Sq in m above which it is doubted, too."""
@@ -114,7 +114,7 @@ def surface_doubts(config, contact):
             yield from (f"{key}: {words}" for words in doubts)
     rms, than = contact.roughness, None
     if 0.0 < rms < SMOOTHEST and not config.is_in_time:
-        than = f"{1e9 * rms:.2g} nm within the Hertz contact, less than any surface has"
+        than = f"{1e9 * rms:.2g} nm within the Hertz contact, less than any but wafers have"
     elif rms > ROUGHEST:
         than = f"{1e6 * rms:.3g} um within the Hertz contact, more than a surface that rolls or slides has"
     if than:

@@ -1,6 +1,6 @@
 """Shear on the bodies of a solved contact: of the film, of solids, and what rolling takes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -45,32 +45,49 @@ def shear_of(problem, state):
     return Shear(film, solids, *forces, rolling_force(problem, state))
 
 
+def outlets(problem):
+    """Where the motion leaves the domain along X and Y: at the last nodes, -1, or at the first ones, 0."""
+    return [-1 if problem.sense * part >= 0.0 else 0 for part in problem.contact.motion]
+
+
+def as_the_motion_goes(problem):
+    """The mesh, its ends turned so that the motion leaves at the last nodes."""
+    mesh = problem.grid.mesh
+    ends = zip((mesh.x, mesh.y), outlets(problem), strict=True)
+    x, y = (pair if outlet else (-pair[1], -pair[0]) for pair, outlet in ends)
+    return replace(mesh, x=x, y=y)
+
+
+BESIDE = {-1: -2, 0: 1}
+"""The last nodes that are solved before an outlet."""
+
+
 def flows_out_whole(problem, state):
     """Whether the film leaves the domain without a cavity, as under an ambient pressure (collective)."""
-    grid = problem.grid
+    grid, (column, line) = problem.grid, (BESIDE[outlet] for outlet in outlets(problem))
     torn = state.status == CAVITATED
-    lines = np.arange(grid.first, grid.last) == grid.mesh.ny - 2
-    return not grid.count(torn[:, -2]) + (0 if grid.mesh.is_line else grid.count(torn[lines]))
+    lines = np.arange(grid.first, grid.last) == line % grid.mesh.ny
+    return not grid.count(torn[:, column]) + (0 if grid.mesh.is_line else grid.count(torn[lines]))
 
 
 def shear_of_wake(problem, state):
     """Shear of the oil that leaves the domain where the film is torn, in N, of a line contact in N/m
     (collective): it takes from bodies that slide as long as it lies between them."""
     grid, contact, law = problem.grid, problem.contact, problem.scheme.contact_law
-    mesh, sense = grid.mesh, problem.sense
-    last, end = (-2, 1) if sense > 0.0 else (1, 0)
+    mesh, (end_x, end_y) = as_the_motion_goes(problem), outlets(problem)
+    x, y = contact.x_scale * mesh.X[:: 1 if end_x else -1], contact.y_scale * mesh.Y[:: 1 if end_y else -1]
     full = np.where(state.status == CAVITATED, state.filling, 1.0)
     content = contact.film_scale * full * law.flow_gap(state.H)[0]
-    x = sense * contact.x_scale * mesh.X
+    behind = content[:, BESIDE[end_x]]
     if mesh.is_line:
-        return float(wake_shear(contact, x[[-end]], None, content[0, [last]])[0])
-    y, lines = sense * contact.y_scale * mesh.Y, np.arange(grid.first, grid.last)
+        return float(wake_shear(contact, x[[end_x]], None, behind)[0])
+    lines, (motion_x, motion_y) = np.arange(grid.first, grid.last), np.abs(contact.motion)
     inside = (lines > 0) & (lines < mesh.ny - 1)
-    behind = wake_shear(contact, np.full(inside.sum(), x[-end]), y[lines[inside]], content[inside, last])
-    total = contact.motion[0] * contact.y_scale * mesh.dY * behind.sum()
-    for row in content[lines == (mesh.ny + last) % mesh.ny, 1:-1]:
-        beside = wake_shear(contact, x[1:-1], np.full(mesh.nx - 2, y[-end]), row)
-        total += contact.motion[1] * contact.x_scale * mesh.dX * beside.sum()
+    sheared = wake_shear(contact, np.full(inside.sum(), x[end_x]), y[lines[inside]], behind[inside])
+    total = motion_x * contact.y_scale * mesh.dY * sheared.sum()
+    for beside in content[lines == BESIDE[end_y] % mesh.ny, 1:-1]:
+        sheared = wake_shear(contact, x[1:-1], np.full(mesh.nx - 2, y[end_y]), beside)
+        total += motion_y * contact.x_scale * mesh.dX * sheared.sum()
     return grid.sum(total)
 
 

@@ -94,23 +94,37 @@ def test_what_is_sheared_beside_a_ball_grows_with_the_logarithm_of_the_domain():
     assert 0.5 * near < torn < near
 
 
-def test_within_and_beyond_a_light_ball_s_domain_are_one_sum():
+LIGHT = {
+    "contact": {"load": 5.0, "radius_x": 0.0103, "radius_y": 0.0103, "reduced_modulus": 110e9},
+    "lubricant": {"viscosity": 0.04, "pressure_viscosity": 0.0, "density_law": "constant"},
+    "motion": {"speed": 2.0, "slide_to_roll": 1.0},
+    "solver": {"error": False},
+}  # fmt: skip
+
+
+def sliding(nodes, angle=0.0, **grid):
+    """Of a light ball: friction of the film, within its domain and beyond it."""
+    asked = LIGHT | {"motion": LIGHT["motion"] | {"angle": angle}, "grid": {"nodes": nodes, **grid}}
+    friction = solve(config_from_tables(asked), MPI.COMM_SELF).result.friction
+    return np.array([friction.film_coefficient, friction.sliding_beyond])
+
+
+@pytest.mark.parametrize("angle", [0.0, 45.0])
+def test_within_and_beyond_a_light_ball_s_domain_are_one_sum(angle):
     """The torn film behind an "auto" domain was in neither number: a seventh of the friction."""
-    ball = {
-        "contact": {"load": 5.0, "radius_x": 0.0103, "radius_y": 0.0103, "reduced_modulus": 110e9},
-        "lubricant": {"viscosity": 0.04, "pressure_viscosity": 0.0, "density_law": "constant"},
-        "motion": {"speed": 2.0, "slide_to_roll": 1.0},
-        "solver": {"error": False},
-    }
-
-    def sliding(nodes, **grid):
-        asked = config_from_tables(ball | {"grid": {"nodes": nodes, **grid}})
-        friction = solve(asked, MPI.COMM_SELF).result.friction
-        return friction.film_coefficient, friction.sliding_beyond
-
-    near, far = sliding(65), sliding(129, x=[-15.0, 10.0], y=[-12.0, 12.0])
+    narrow = {"x": [-6.0, 1.2], "y": [-6.0, 1.2]} if angle else {}
+    wide = {"x": [-15.0, 10.0], "y": [-15.0, 10.0] if angle else [-12.0, 12.0]}
+    near, far = sliding(65, angle, **narrow), sliding(129, angle, **wide)
     assert near[1] > near[0] and far[1] < 0.6 * far[0]
-    assert sum(near) == pytest.approx(sum(far), rel=0.03)
+    assert near.sum() == pytest.approx(far.sum(), rel=0.03)
+
+
+def test_beyond_the_domain_all_directions_are_alike():
+    along, back, across = (
+        sliding(65, angle, x=[-6.0, 6.0], y=[-6.0, 6.0]) for angle in (0.0, 180.0, 270.0)
+    )
+    np.testing.assert_allclose(back, along, rtol=1e-9)
+    np.testing.assert_allclose(across, along, rtol=1e-9)
 
 
 def test_behind_a_line_s_torn_film_its_oil_is_sheared_by_what_it_fills():

@@ -25,7 +25,7 @@ def found(paper_contact, monkeypatch):
     def make(slide_to_roll):
         contact = paper_contact(friction=Friction(slide_to_roll=slide_to_roll))
         grid = SimpleNamespace(max=float, mesh=MESH)
-        problem = SimpleNamespace(contact=contact, grid=grid, load_share=1.0)
+        problem = SimpleNamespace(contact=contact, grid=grid, load_share=1.0, sense=1.0)
         forces = (40.0, 8.0) if slide_to_roll else (0.0, 0.0)
         shear = Shear(1e6, 2e6, *forces, 0.4)
         monkeypatch.setattr(module, "shear_of", lambda *_: shear)

@@ -20,6 +20,8 @@ DIRECTED = {"angle": "degree"}
 """What a point contact has besides."""
 LOAD = {"point": "N", "line": "N m-1", "wedge": "N"}
 
+OF_A_PAD = {"drag": "N", "centre_of_pressure": "mm"}
+
 every_kind = pytest.mark.parametrize("kind", SHAPES)
 
 
@@ -42,7 +44,7 @@ def opened(tmp_path):
 @every_kind
 def test_every_variable_has_its_unit_and_name(kind, opened):
     _, data = opened(kind)
-    units = UNITS | {"normal_load": LOAD[kind]} | ({} if kind == "wedge" else LOADED)
+    units = UNITS | {"normal_load": LOAD[kind]} | (OF_A_PAD if kind == "wedge" else LOADED)
     units |= DIRECTED if kind == "point" else {}
     assert {name: variable.attrs["units"] for name, variable in data.variables.items()} == units
     assert all(variable.attrs["long_name"] for variable in data.variables.values())
