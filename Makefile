@@ -121,7 +121,8 @@ movies: study-courses
 # make sweeps      run the sweeps that pages show and write their tables to runs/tables (hours)
 # make sweep-NAME  one of them. One that was stopped goes on; a point without an answer says so in the table.
 SWEEPS := slow rest rest-bare solids-fine traction
-OF_slow := --set solver.start=film --over motion.speed="7.5,2.5,1,.25,.1,.025,.005 mm/s" \
+BY_DEFAULT := --set grid.x=auto --set grid.y=auto --set discretization.couette=3B --set discretization.face_mobility=linear-gap
+OF_slow := $(BY_DEFAULT) --set solver.start=film --over motion.speed="7.5,2.5,1,.25,.1,.025,.005 mm/s" \
   --over grid.nodes=129,257,513,1025
 OF_rest := configs/rough.toml --over motion.speed="2e-2..1e-9 m/s:18"
 OF_rest-bare := $(OF_rest) --set contact.boundary_film=0 --set grid.nodes=129

@@ -18,7 +18,7 @@ def test_films_of_a_random_contact(tmp_path):
         assert row["central band/error"].endswith("!") == (off > half_width)
     told = {row["of"]: int(row["bands"]) for row in bands}
     assert list(told) == ["central", "minimum", "largest pressure", "friction"]
-    assert told["central"] == told["minimum"] == 2 and told["friction"] == told["largest pressure"]
+    assert told["central"] == told["minimum"] == 2 and told["friction"] >= told["largest pressure"]
     kept = [row["largest pressure limit GPa"] for row in rows if "±" in row["largest pressure GPa"]]
     assert told["largest pressure"] == len(kept)
 
