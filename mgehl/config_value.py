@@ -52,7 +52,15 @@ _PERCENT = re.compile(r"\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?)\s*%\s*")
 EXAMPLES = {"K": "60 degC", "rad/s": "6000 rpm", "1/Pa": "20 1/GPa", "Pa*s": "40 mPa*s"}
 """Values of units that people seldom say in SI."""
 
-MASSES = {"lb": "lbf", "lbs": "lbf", "kg": "kgf", "g": "gf"}
+MASSES = {
+    "lb": "lbf",
+    "lbs": "lbf",
+    "lbm": "lbf",
+    "pound": "lbf",
+    "kg": "kgf",
+    "kilogram": "kgf",
+    "g": "gf",
+}
 """Units of mass that people write for forces."""
 
 OF_TABLES = (".csv", ".txt", ".tsv", ".dat")

@@ -68,7 +68,8 @@ def _bearing_lines(result):
     )
     if result.drag_N is not None:
         part = f", {result.drag_N / result.load_N:.3g} of the load" if result.load_N > 0.0 else ""
-        at = f"; the load rests on x = {result.pressure_centre_mm:.4g} mm" if part else ""
+        rests = part and result.min_P >= 0.0  # a film that pulls has its centre anywhere
+        at = f"; the load rests on x = {result.pressure_centre_mm:.4g} mm" if rests else ""
         yield f"friction on the plate {result.drag_N:.4g} N{part}, {result.drag_power_W:.4g} W{at}"
     if result.min_P < 0.0:
         yield "the film pulls where P is below 0; discretization.cavitation = true lets it tear there"
@@ -76,8 +77,7 @@ def _bearing_lines(result):
         f"residual {result.residual:.1e}, flux imbalance {result.flux_imbalance:.1e}, "
         f"flow through closed faces {result.closed_face_flow:.1e}"
     )
-    cavities = f"{result.cavitated_nodes}{filling_words(result)}"
-    yield f"solid nodes: {result.solid_nodes}, cavitated: {cavities}"
+    yield f"solid nodes: {result.solid_nodes}, cavitated: {result.cavitated_nodes}{filling_words(result)}"
     yield from _oil(result.mass, "film under the pad")
     yield f"work: {result.linear_iterations} iterations, {_took(result)}"
 

@@ -37,6 +37,16 @@ def test_a_plane_pad_drags_as_its_closed_form_says(pad, centre):
     assert fine.pressure_centre_mm == pytest.approx(centre, abs=0.005)
 
 
+@pytest.mark.parametrize("turned", [False, True])
+def test_before_a_wall_the_pressure_drags_as_no_flow_asks(turned):
+    """A blocked exit: 4 eta u/h at all x. The half cell beside it was left out, half a per cent."""
+    pad = BY_SLOPE | {"wedge.blocked_exit": True, "wedge.reversed": turned}
+    exact = 4.0 * ETA * SPEED * WIDTH * log(INLET / EXIT) / SLOPE
+    coarse, fine = (solved(nodes, **pad, discretization__couette="2C") for nodes in (65, 129))
+    assert fine.drag_N == pytest.approx(exact, rel=5e-5)
+    assert abs(coarse.drag_N - exact) == pytest.approx(4.0 * abs(fine.drag_N - exact), rel=0.2)
+
+
 def test_open_sides_bear_less_and_drag_hardly_less():
     """Of a pad without a slope the oil is sheared alone: eta u/h on all of it."""
     flat = {

@@ -27,10 +27,13 @@ MANY = 8
 """Evenly spaced heights in a row from which on they are hardly so by chance."""
 
 NAMES = {
-    axis: re.compile(rf"\W*(?:{names})\b", re.I)
+    axis: re.compile(rf"\W*(?:{names})(?![A-Za-z0-9=-])", re.I)
     for axis, names in {"x": "x|position|distance", "y": "y", "z": "z|height"}.items()
 }
 """What columns of coordinates and heights are called."""
+
+SIZES = "x", "y", "pixel"
+"""What headings tell of a matrix."""
 
 _BEGIN = r"(?:^|[^\w ]) *(?:(?:scan|image|map) +)?"
 """What stands before a size: a "max height" is none."""
@@ -50,7 +53,7 @@ _TOLD = {
 
 def read_text(path):
     """The `Map` of a text file. Raises FileError, where there is no row of numbers NoTableError."""
-    table = _of_axes(read_table(path))
+    table, axes = _of_axes(read_table(path))
     told = _told(table.headings)
     columns = table.values.shape[1]
     if columns == 2:
@@ -59,7 +62,9 @@ def read_text(path):
         table.values[table.values == told["hole"][0]] = np.nan
     if "cell" in told:  # a grid of maps, whose first row is the northern one
         return Map(path, table.values[::-1], *(told["cell"][0],) * 2)
-    is_matrix = columns != 3 or not told.keys().isdisjoint(("x", "y", "pixel"))
+    if axes:  # which say more than a size does
+        return _with_heading(_from_points(path, table), {k: v for k, v in told.items() if k not in SIZES})
+    is_matrix = columns != 3 or not told.keys().isdisjoint(SIZES)
     found = _from_matrix(path, table) if is_matrix else _from_points(path, table)
     return _with_heading(found, told)
 
@@ -198,15 +203,17 @@ def _from_points(path, table):
 
 
 def _of_axes(table):
-    """The table's columns of x and z, or of x, y and z, in this order, by the names over them; all of it
-    where these are no such names."""
+    """The table's columns of x and z, or of x, y and z, in this order, by the names over them, and these;
+    all of it and none where there are no such names, or two alike."""
     cells = table.heading or ()
     named = [next((axis for axis, name in NAMES.items() if name.match(cell)), None) for cell in cells]
-    axes = [axis for axis in NAMES if named.count(axis) == 1]
-    if len(axes) < 2 or "z" not in axes or any(named.count(axis) > 1 for axis in NAMES):
-        return table
+    axes = [axis for axis in NAMES if axis in named]
+    if "z" not in axes or len(axes) < 2 or any(named.count(axis) > 1 for axis in axes):
+        return table, axes[:0]
+    if len(axes) == 2 < len(cells) and not any(_units(cells, len(cells))):
+        return table, axes[:0]  # words of a comment
     columns = [named.index(axis) for axis in axes]
-    return replace(table, values=table.values[:, columns], heading=[cells[k] for k in columns])
+    return replace(table, values=table.values[:, columns], heading=[cells[k] for k in columns]), axes
 
 
 def _from_profile(path, table):

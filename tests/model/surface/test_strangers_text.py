@@ -1,3 +1,5 @@
+import re
+
 import numpy as np
 import pandas
 import pytest
@@ -104,6 +106,27 @@ def test_columns_of_a_profile_are_those_of_their_names(tmp_path, heading, column
     np.testing.assert_array_equal(found.heights[0], [k % 3 for k in range(9)])
     assert found.dx == pytest.approx(0.001)
     assert (found.position_unit, found.height_unit) == (1e-3, 1e-6)
+
+
+@pytest.mark.parametrize(
+    "heading",
+    ["x_um,y_um,z_um,I", "# Pixel size: 1 um\nI,y [um],x [um],z [um]"],
+    ids=["units", "a size before"],
+)
+def test_points_are_those_of_their_names(tmp_path, heading):
+    names = [re.sub(r"\W|_um|um", "", cell) for cell in heading.splitlines()[-1].split(",")]
+    points = ({"x": i, "y": j, "z": Z[j, i], "I": 7} for j in range(4) for i in range(4))
+    lines = (",".join(f"{point[name]:g}" for name in names) for point in points)
+    (tmp_path / "z.csv").write_text("\n".join([heading, *lines]))
+    found = read_map(tmp_path / "z.csv")
+    np.testing.assert_array_equal(found.heights, Z)
+    assert (found.dx, found.dy, found.position_unit, found.height_unit) == (1.0, 1.0, 1e-6, 1e-6)
+
+
+def test_words_of_a_comment_are_no_names(tmp_path):
+    points = "\n".join(f"{i} {j} {Z[j, i]}" for j in range(4) for i in range(4))
+    (tmp_path / "z.txt").write_text("# Height along x\n" + points)
+    np.testing.assert_array_equal(read_map(tmp_path / "z.txt").heights, Z)
 
 
 def test_heights_in_microinches(tmp_path):
