@@ -122,8 +122,12 @@ movies: study-courses
 # make sweep-NAME  one of them. One that was stopped goes on; a point without an answer says so in the table.
 SWEEPS := slow rest rest-bare solids-fine traction
 BY_DEFAULT := --set grid.x=auto --set grid.y=auto --set discretization.couette=3B --set discretization.face_mobility=linear-gap
-OF_slow := $(BY_DEFAULT) --set solver.start=film --over motion.speed="7.5,2.5,1,.25,.1,.025,.005 mm/s" \
-  --over grid.nodes=129,257,513,1025
+SLOW_GRIDS := 129 257 513 1025
+SLOW := $(BY_DEFAULT) --set solver.start=film --over motion.speed=
+OF_slow-129 := $(SLOW)"7.5,2.5,1,.25,.1,.025,.005 mm/s" --set grid.nodes=129
+OF_slow-257 := $(SLOW)"7.5,2.5,1,.25,.1,.025,.005 mm/s" --set grid.nodes=257
+OF_slow-513 := $(SLOW)"7.5,2.5,1,.25,.1,.025,.005 mm/s" --set grid.nodes=513
+OF_slow-1025 := $(SLOW)"7.5,2.5,1 mm/s" --set grid.nodes=1025
 OF_rest := configs/rough.toml --over motion.speed="2e-2..1e-9 m/s:18"
 OF_rest-bare := $(OF_rest) --set contact.boundary_film=0 --set grid.nodes=129
 OF_solids-fine := configs/rough.toml --set surface.shortest_wavelength="5 um" --over motion.speed="17.5,3,0.5 mm/s" \
@@ -142,6 +146,9 @@ sweep-traction: $(TRACTION_OILS:%=sweep-traction-%)
 	  lubricant.oil,motion.speed,motion.slide_to_roll,friction
 	cp runs/sweep-traction/against-motion.slide_to_roll.png configs/pictures/traction.png
 	rm $(TRACTION_OILS:%=runs/tables/traction-%.csv)
+sweep-slow: $(SLOW_GRIDS:%=sweep-slow-%)
+	$(ON) mgehl collect $(SLOW_GRIDS:%=runs/sweep-slow-%/runs/*) --out runs/tables/slow.csv --columns motion.speed
+	rm $(SLOW_GRIDS:%=runs/tables/slow-%.csv)
 sweep-%: $(ENVIRONMENT)
 	( $(ON) mpiexec -n 2 python -m mgehl sweep $(OF_$*) --set solver.error=false --out runs/sweep-$* --resume \
 	  --quiet ); test $$? -le 1
