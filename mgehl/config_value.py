@@ -52,17 +52,6 @@ _PERCENT = re.compile(r"\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?)\s*%\s*")
 EXAMPLES = {"K": "60 degC", "rad/s": "6000 rpm", "1/Pa": "20 1/GPa", "Pa*s": "40 mPa*s"}
 """Values of units that people seldom say in SI."""
 
-MASSES = {
-    "lb": "lbf",
-    "lbs": "lbf",
-    "lbm": "lbf",
-    "pound": "lbf",
-    "kg": "kgf",
-    "kilogram": "kgf",
-    "g": "gf",
-}
-"""Units of mass that people write for forces."""
-
 OF_TABLES = (".csv", ".txt", ".tsv", ".dat")
 """How files end that a key without a course in time was given."""
 
@@ -208,8 +197,8 @@ def _with_unit(key, unit, text, instead=""):
         raise
     except _pint().DimensionalityError:
         wrong, other = "wrong unit" if units else "has no unit", f"; {instead}" if instead else ""
-        if unit == "N" and units in MASSES:
-            wrong = f"is a mass, its weight is in {MASSES[units]}"
+        if unit == "N" and quantity.check("[mass]"):
+            wrong = "is a mass, its weight is in kgf or lbf"
         raise WrongUnitError(f"{key} = {shown(text)}: {wrong}; must be {example}{other}") from None
     except Exception:
         why = "not understood"

@@ -87,7 +87,7 @@ MISTAKES = [
     ("motion.speed='7.5'", "motion.speed = '7.5': ", "has no unit", '"1 m/s"'),
     ("motion.speed=fast", "motion.speed = 'fast': ", "not understood", '"1 m/s"'),
     ("contact.radius_x=cam.csv", "contact.radius_x = 'cam.csv': ", "follows no table: only speed"),
-    ("contact.load=10 lb", "contact.load = '10 lb': ", "is a mass, its weight is in lbf"),
+    ("contact.load=10 lb", "contact.load = '10 lb': ", "is a mass, its weight is in kgf or lbf"),
     ("motion.angle='5'", "motion.angle = '5': has no unit", '"1 deg"'),
     ("motion.angle=5 alpha", "motion.angle = '5 alpha': of what, turns or radians?"),
     ("contact.load=9**9**9 N", "contact.load = '9**9**9 N': ", "not understood"),

@@ -54,8 +54,9 @@ STEEPEST_HEIGHTS = 0.2
 """Rms slope of a surface whose square, 4 %, Reynolds' equation and the half-space can no longer neglect."""
 
 LONGER, SLENDER = 2.0, 8.0
-"""R_x/R_y from which on formulas are not made for the contact. Solved films are 1.2, 1.3, 1.4 and 1.5 times
-Nijenbanning's at 3, 10, 20 and 34; of Hamrock and Dowson's .89 at 3, then half and less."""
+"""R_x/R_y from which on formulas are not made for the contact. Films of 100 N, 1 m/s, 257 nodes are 1.17,
+1.26, 1.39 and 1.49 times Nijenbanning's at 2, 3, 5 and 8, and .96, .90, .78 and .65 times Hamrock and
+Dowson's; of other contacts 1.3, 1.4 and 1.5 times Nijenbanning's at 10, 20 and 34."""
 
 AGAINST = 2.0
 """Slide-to-roll ratio from which on one body moves against the other; one in per cent is as large, too."""
@@ -172,7 +173,7 @@ def _pressure(contact):
 def _films(config, contact):
     long = 0.0 if contact.is_line else contact.aligned.radius_x / contact.aligned.radius_y
     if long > LONGER:
-        far, off = ("far ", "half") if long > SLENDER else ("", "a fifth")
+        far, off = ("far ", "half") if long > SLENDER else ("", "a fifth and more")
         yield (
             f"the contact is {far}longer along the motion than it is wide: film formulas, lambda and the "
             f"regime are made for others, and off by {off}"

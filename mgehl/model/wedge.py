@@ -139,6 +139,10 @@ class WedgeBearing:
         """The gap at the exit and at the inlet, in m, without a pocket."""
         return self.level + self.slope * self.exit, self.level + self.slope * self.inlet
 
+    def cell_area(self, mesh):
+        """Area of a cell of a mesh in m^2; of a line of nodes all across."""
+        return mesh.dX * self.x_scale * (self.width if mesh.is_line else mesh.dY * self.y_scale)
+
     @property
     def _unit_slope(self):
         """Metres of film per unit of H and mm of X: m of [Liu eq. 44]."""

@@ -1,5 +1,6 @@
 """What drags the plate of a rigid bearing, and where its pressure rests."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -13,10 +14,11 @@ from mgehl.discretization.status import (
     is_solid,
     open_faces,
 )
+from mgehl.solver.shear import rolling_force
 
 
 class PadDrag(NamedTuple):
-    """Of a bearing as wide as it is; of a line of nodes, a mm of it."""
+    """Forces and where they act."""
 
     plate_N: float
     """On the plate, against its motion."""
@@ -25,13 +27,12 @@ class PadDrag(NamedTuple):
 
 
 def pad_drag(problem, state):
-    """The `PadDrag` of a state (collective). On the plate the oil's shear is eta u/h + (h/2) dp/dx along
-    the motion, by as much as a cavity is filled."""
+    """The `PadDrag` of a state (collective). Oil drags the plate by eta u/h, in a cavity by as much as that
+    is filled, and by (h/2) dp/dx along the motion, which at a pocket's edges is of first order."""
     grid, bearing = problem.grid, problem.contact
-    unit = bearing.x_scale * bearing.y_scale * grid.mesh.dX * grid.mesh.dY
-    parts = _along(problem) + _before_walls(problem, state)
-    dragged = unit * grid.sum((_sliding(problem, state) * _across(problem) * parts).sum())
-    dragged += bearing.motion[0] * _by_pressure(problem, state)
+    parts = _across(problem) * (_along(problem) + _before_walls(problem, state))
+    dragged = bearing.cell_area(grid.mesh) * grid.sum((_sliding(problem, state) * parts).sum())
+    dragged += rolling_force(problem, replace(state, p=None))
     above = np.where(state.status == CONTACT, 0.0, state.P - bearing.ambient)
     load, moment = (grid.sum(each.sum()) for each in (above, above * grid.X))
     return PadDrag(dragged, moment / load if load else None)
@@ -59,17 +60,12 @@ def _along(problem):
 def _before_walls(problem, state):
     """What the pressure drags in half cells of film beside faces along X that are closed, over the sliding,
     (lines, nx): nothing flows there, so (h/2) dp/dx is 3 eta u/h."""
-    walls = ~_open_faces(problem, state)
+    status = problem.grid.halo_status(state.status)
+    axis = next(each for each in problem.axes if each.number)
+    walls = ~open_faces(is_solid(status, problem.scheme.contact_law.closes_faces), axis)
     beside = np.zeros(state.P.shape)
     beside[:, 1:-1] = walls[:, :-1].astype(float) + walls[:, 1:]
     return 1.5 * beside * (state.status == LUBRICATED)
-
-
-def _open_faces(problem, state):
-    """Which faces along X are open, (lines, nx - 1)."""
-    status = problem.grid.halo_status(state.status)
-    axis = next(each for each in problem.axes if each.number)
-    return open_faces(is_solid(status, problem.scheme.contact_law.closes_faces), axis)
 
 
 def _across(problem):
@@ -79,13 +75,3 @@ def _across(problem):
     open_side = not (grid.mesh.is_line or problem.contact.closed_sides)
     outermost = (lines == 0) | (lines == grid.mesh.ny - 1)
     return np.where(open_side & outermost, 0.5, 1.0)
-
-
-def _by_pressure(problem, state):
-    """The integral of (h/2) dp/dX in N (collective): of an open face its mean gap times the difference of
-    its pressures, which at the edges of a pocket is of first order."""
-    grid, bearing = problem.grid, problem.contact
-    rise = np.diff(state.P, axis=1) * _open_faces(problem, state)
-    between = 0.25 * (state.H[:, 1:] + state.H[:, :-1]) * rise * _across(problem)
-    unit = bearing.film_scale * bearing.pressure_scale * bearing.y_scale * grid.mesh.dY
-    return unit * grid.sum(between.sum())
