@@ -99,9 +99,9 @@ def test_what_is_exported_is_of_the_end(course):
     speed, load = course((0.0, 0.09), (0.1 * UNIT, 0.03)), 15.0
     slower = solved(motion__speed=speed, time__end=0.1 * UNIT)
     there = slower.contact.at_speed(0.03)
-    told = {name: number[0] for name, number in slower.config.kind.scalars(slower).items()}
-    assert (told["speed"], told["normal_load"]) == pytest.approx((0.03, load))
-    assert told["moes_M"] == pytest.approx(there.groups.M)
+    told = slower.to_xarray()
+    assert (float(told.speed), float(told.normal_load)) == pytest.approx((0.03, load))
+    assert float(told.moes_M) == pytest.approx(there.groups.M)
     assert slower.summary.formulas_of == "at the largest speed" and solved().summary.formulas_of == ""
     H = 1e-9 * slower.summary.central_film_nm * there.moes_scale
     assert slower.summary.moes_film.central == pytest.approx(H)

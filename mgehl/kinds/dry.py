@@ -8,7 +8,7 @@ from mgehl.kinds.bodies import MOTION
 from mgehl.kinds.choice import Choice, value_of, word_of
 from mgehl.kinds.kind import Effort
 from mgehl.kinds.line import LineKind
-from mgehl.kinds.loaded import HALF_WIDTH, LoadedKind, p_h_words
+from mgehl.kinds.loaded import LoadedKind, p_h_words
 from mgehl.kinds.point import PointKind
 from mgehl.model.peaks import reach_of_peaks
 from mgehl.model.room import end_beyond
@@ -86,35 +86,6 @@ class DryKind(LoadedKind):
     def parts(self, solution, times="x"):
         """Load and nodes."""
         return ["dry", " ".join(self.load(solution.contact)), self.nodes(solution.mesh, times)]
-
-    def scalars(self, solution):
-        """Load, pressure, approach and contact."""
-        contact, result = solution.contact, solution.result
-        unit = self.load_unit.replace("/m", " m-1")
-        found = {
-            "normal_load": (contact.load, unit, "normal load"),
-            "maximum_pressure": (1e9 * result.max_pressure_GPa, "Pa", "largest pressure"),
-            "approach": (1e-6 * result.approach_um, "m", "approach of the bodies"),
-            "contact_nodes": (float(result.contact.nodes), "1", "nodes in contact"),
-            "contact_area": (result.contact.area_fraction, "1", "contact area over that of Hertz"),
-        }
-        return found | _half_widths(result.dry_error)
-
-
-def _half_widths(error):
-    """The bands of a `DryError` as `DryKind.scalars`; of an older result's None none."""
-    if error is None:
-        return {}
-    bands = {
-        "maximum_pressure": (error.max_pressure_GPa, 1e9, "Pa"),
-        "approach": (error.approach_um, 1e-6, "m"),
-        "contact_area": (error.area_fraction, 1.0, "1"),
-    }
-    return {
-        f"{name}_error": (factor * band, unit, HALF_WIDTH)
-        for name, (band, factor, unit) in bands.items()
-        if band is not None
-    }
 
 
 class DryPoint(DryKind, PointKind):

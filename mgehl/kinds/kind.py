@@ -89,10 +89,6 @@ class Kind:
         """What the axes along x and y show, with its unit."""
         raise NotImplementedError
 
-    def scalars(self, solution):
-        """The numbers that a run results in, {name: (value, unit, meaning)}, named for NetCDF."""
-        raise NotImplementedError
-
 
 def pressure_unit(GPa):
     """What turns a pressure, and all beside it, into its unit, and the unit: of a soft or light contact MPa

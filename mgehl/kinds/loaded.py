@@ -26,7 +26,6 @@ RELAXATION = Effort(
 LONG_FILM = 1e-5
 """Film in m from which on films are told in um."""
 
-HALF_WIDTH = "half-width of the band about it that holds its limit on ever finer grids"
 
 BANDS, BANDS_WORDS = 10.0, "bands 2 to 23 more"
 """Convolutions that coarser grids take for the bands about a film."""
@@ -176,36 +175,6 @@ class LoadedKind(Kind):
         a, b = 1e3 * contact.x_scale, 1e3 * contact.y_scale
         return f"X = x/a, a = {a:.4g} mm", f"Y = y/b, b = {b:.4g} mm"
 
-    def scalars(self, solution):
-        """Load, films, gaps of rough bodies, pressure and groups; bands where there are any."""
-        result, config, (speed, contact) = solution.result, solution.config, time.driven(solution)
-        error, mixed, groups = result.error, result.mixed, contact.unheated.groups
-        gaps = mixed if mixed and mixed.mean_gap_nm is not None else None
-        gap_error = gaps.error if gaps else None
-        found = {
-            "speed": (speed, "m s-1", "entrainment speed"),
-            "normal_load": (solution.at_the_end.load, self.load_unit.replace("/m", " m-1"), "normal load"),
-            "central_film": _nm(result, "central_film_nm", "film at the centre of the contact"),
-            "minimum_film": _nm(result, "minimum_film_nm", "smallest film"),
-            "central_film_error": _nm(error, "central_nm"),
-            "minimum_film_error": _nm(error, "minimum_nm"),
-            "mean_gap": _nm(gaps, "mean_gap_nm", "mean gap within the Hertz ellipse, contact included"),
-            "loaded_gap": _nm(gaps, "loaded_gap_nm", "the same by pressure"),
-            "mean_gap_error": _nm(gap_error, "mean_nm"),
-            "loaded_gap_error": _nm(gap_error, "loaded_nm"),
-            "maximum_pressure_error": _GPa(result, "max_pressure_band_GPa"),
-            "maximum_pressure": _GPa(result, "max_pressure_GPa", "largest pressure"),
-        }
-        if not time.stands_still(config):
-            found |= {
-                "group_U": (groups.U, "1", "speed parameter U"),
-                "group_W": (groups.W, "1", "load parameter W"),
-                "group_G": (groups.G, "1", "material parameter G"),
-                "moes_M": (groups.M, "1", "load number M of Moes"),
-                "moes_L": (groups.L, "1", "material number L of Moes"),
-            }
-        return {name: number for name, number in found.items() if number is not None}
-
 
 def _films(config, contact):
     """Films of formulas and what they assume, lambda, heat."""
@@ -226,18 +195,6 @@ def _over_time(config, key, value):
     """A value of a contact, or from where to where it goes in time."""
     least, most = time.range_of(config, key)
     return f"{value:.6g}" if least == most or config.moes.M is not None else f"{least:.6g} to {most:.6g}"
-
-
-def _nm(of, name, meaning=HALF_WIDTH):
-    """The length in nm of a part of the result in m; None where there is none."""
-    value = getattr(of, name) if of else None
-    return None if value is None else (1e-9 * value, "m", meaning)
-
-
-def _GPa(of, name, meaning=HALF_WIDTH):
-    """The same of a pressure in GPa."""
-    value = getattr(of, name)
-    return None if value is None else (1e9 * value, "Pa", meaning)
 
 
 def _with_bands(effort):

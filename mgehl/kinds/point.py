@@ -137,11 +137,6 @@ class PointKind(LoadedKind):
         *others, last = super().lines(config, contact, mesh)
         return [*others, last + angle_words(config)]
 
-    def scalars(self, solution):
-        """The direction of the motion, too."""
-        angle = solution.at_the_end.angle, "degree", "direction of the motion, from +x towards +y"
-        return super().scalars(solution) | {"angle": angle}
-
     def load(self, contact):
         """In N."""
         return f"{contact.load:.4g}", "N"

@@ -216,14 +216,6 @@ def extremes(config, contact):
     return tuple(replace(contact, load=load) for load in loads)
 
 
-def driven(solution):
-    """The entrainment speed of a `Solution` in m/s, in time at its end, negative against the motion of the
-    contact; and the contact at that speed, or at the largest where the surfaces rest."""
-    last, largest = solution.last, solution.contact.speed
-    speed = 1e-3 * last["speed_mm_s"] if last else largest
-    return speed, solution.at_the_end.at_speed(abs(speed) or largest)
-
-
 def towards_all(config, contact):
     """The contact with the motion in each of its directions until time.end."""
     if not config.is_in_time:

@@ -209,17 +209,6 @@ class WedgeKind(Kind):
         """In mm."""
         return "X, mm", "Y, mm"
 
-    def scalars(self, solution):
-        """Load and pressure: there are no groups and no central film."""
-        result = solution.result
-        return {
-            "speed": (solution.contact.speed, "m s-1", "speed of the plate"),
-            "normal_load": (result.load_N, "N", "load that the pressure carries"),
-            "drag": (result.drag_N, "N", "friction on the plate"),
-            "centre_of_pressure": (result.pressure_centre_mm, "mm", "X about which the load has no moment"),
-            "maximum_pressure": (1e6 * result.max_pressure_MPa, "Pa", "largest pressure"),
-        }
-
 
 WEDGE = WedgeKind()
 

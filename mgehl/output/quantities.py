@@ -27,6 +27,7 @@ QUANTITIES = {
         "central_film_nm": ("central_film_nm", "nm", "central film", "error.central_nm"),
         "minimum_film_nm": ("minimum_film_nm", "nm", "smallest film", "error.minimum_nm"),
         "mean_gap_nm": ("mixed.mean_gap_nm", "nm", "mean gap within Hertz", "mixed.error.mean_nm"),
+        "loaded_gap_nm": ("mixed.loaded_gap_nm", "nm", "mean gap by pressure", "mixed.error.loaded_nm"),
         "load_on_solids": ("mixed.solid_load_fraction", "1", "load on solids",
                            "mixed.error.solid_load_fraction"),
         "load_on_contact": ("mixed.contact_load_share", "1", "load on contact",
@@ -52,6 +53,14 @@ QUANTITIES = {
         "convolutions": ("work.convolutions", "1", "fine-grid convolutions"),
     }.items()
 }  # fmt: skip
+
+
+def numbers_and_bands():
+    """(Name, unit, meaning, path in result.json) of each quantity and of the half-width of its band."""
+    for name, (path, unit, meaning, band) in QUANTITIES.items():
+        yield name, unit, meaning, path
+        if band:
+            yield f"{name}_band", unit, f"half-width of the band about the {meaning}", band
 
 
 ALSO_AT = {"load_on_contact": "contact.load_fraction"}

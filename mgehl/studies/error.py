@@ -11,7 +11,7 @@ import numpy as np
 
 from mgehl.output.film_error import FILMS
 from mgehl.studies.columns import told
-from mgehl.studies.limits import FRICTION, PRESSURE, Banded, cells, summary
+from mgehl.studies.limits import cells, judged, number_of, summary
 from mgehl.studies.study import BEST, merged
 
 NODES, CASES, SEED = (65, 129, 257), 40, 11
@@ -27,8 +27,8 @@ RATIOS, LAWS = (0.5, 1.0, 1.0, 2.0, 4.0), ("barus", "roelands")
 SLIDES = 0.02
 """Slide-to-roll ratio: Newtonian friction, which does not thin the film."""
 
-BANDED = {each: Banded(f"{each}_film_nm", f"error.{each}_nm", " nm") for each in FILMS}
-BANDED |= {"largest pressure": PRESSURE, "friction": FRICTION}
+BANDED = {each: f"{each}_film_nm" for each in FILMS}
+BANDED |= {"largest pressure": "max_pressure_GPa", "friction": "friction"}
 
 DOMAINS = (
     (40.0, {"x": [-6.0, 3.0], "y": [-4.5, 4.5]}),
@@ -52,7 +52,7 @@ def run(study):
             continue
         limits = limits_of(found[-1].result.error) | _limits_of_loads(*found[-2:])
         for solution in found[:-1]:
-            own = {each: of.judged(solution.result, limits[each]) for each, of in BANDED.items()}
+            own = {each: judged(of, solution.result, limits[each]) for each, of in BANDED.items()}
             rows.append(_row(name, solution, own))
             for each, band in own.items():
                 bands[each].append(band)
@@ -93,15 +93,18 @@ def limits_of(error):
 
 def _limits_of_loads(coarse, fine):
     """The same of what else has bands, which is of the second order in the spacing."""
-    loads = {name: of.value for name, of in BANDED.items() if name not in FILMS}
-    return {name: (4.0 * of(fine.result) - of(coarse.result)) / 3.0 for name, of in loads.items()}
+    of_loads = {name: of for name, of in BANDED.items() if name not in FILMS}
+    return {
+        name: (4.0 * number_of(of, fine.result) - number_of(of, coarse.result)) / 3.0
+        for name, of in of_loads.items()
+    }
 
 
 def _row(name, solution, bands):
     result = solution.result
     row = {"contact": name, "nodes": str(solution.mesh.nx), **told(result, "inlet cells")}
     for each, band in bands.items():
-        row |= cells(each, band, BANDED[each].unit)
+        row |= cells(each, band, BANDED[each])
     more = f"{100.0 * result.error.convolutions / result.work.convolutions:.0f}"
     why = "" if result.error.central_nm is not None else result.error.how
     return row | {"more work %": more, "no band": why}

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mgehl.output.digits import with_band
+from mgehl.output.quantities import QUANTITIES
 from mgehl.studies.columns import statistic
 
 PLAUSIBLE_ORDERS = (0.5, 3.0)
@@ -66,28 +67,20 @@ class JudgedBand(NamedTuple):
         return f"{self.half_width / self.off:.2f}{'' if self.holds else ' !'}"
 
 
-class Banded(NamedTuple):
-    """A number that has a band: where a `Result` has both, and its unit as a table has it."""
-
-    number: str
-    half_width: str
-    unit: str = ""
-
-    def value(self, result):
-        """The number of a `Result`."""
-        return attrgetter(self.number)(result)
-
-    def judged(self, result, limit):
-        """The `JudgedBand` of a `Result`."""
-        return JudgedBand(self.value(result), attrgetter(self.half_width)(result), limit)
+def number_of(name, result):
+    """The quantity of a `Result`."""
+    return attrgetter(QUANTITIES[name].path)(result)
 
 
-PRESSURE = Banded("max_pressure_GPa", "max_pressure_band_GPa", " GPa")
-FRICTION = Banded("friction.coefficient", "friction.coefficient_band")
+def judged(name, result, limit):
+    """The `JudgedBand` of a quantity of a `Result`."""
+    return JudgedBand(number_of(name, result), attrgetter(QUANTITIES[name].band)(result), limit)
 
 
-def cells(name, band, unit=" nm"):
-    """Columns of a table."""
+def cells(name, band, quantity):
+    """Columns of a table about a number that is the quantity."""
+    unit = QUANTITIES[quantity].unit
+    unit = "" if unit == "1" else f" {unit}"
     return {
         f"{name}{unit}": with_band(band.value, band.half_width),
         f"{name} limit{unit}": f"{band.limit:.4g}",

@@ -7,7 +7,7 @@ order.
 
 from mgehl.studies import machine, rollers
 from mgehl.studies.columns import told
-from mgehl.studies.limits import FRICTION, PRESSURE, Banded, cells, summary
+from mgehl.studies.limits import cells, judged, number_of, summary
 from mgehl.studies.study import merged
 
 GRIDS = {"line": (513, 1025, 2049), "point": (65, 129, 257)}
@@ -27,12 +27,12 @@ SLIDES = {
 
 
 BANDED = {
-    "mean gap": Banded("mixed.mean_gap_nm", "mixed.error.mean_nm", " nm"),
-    "gap by pressure": Banded("mixed.loaded_gap_nm", "mixed.error.loaded_nm", " nm"),
-    "largest pressure": PRESSURE,
-    "load on contact": Banded("mixed.contact_load_share", "mixed.error.contact_load_share"),
-    "load on solids": Banded("mixed.solid_load_fraction", "mixed.error.solid_load_fraction"),
-    "friction": FRICTION,
+    "mean gap": "mean_gap_nm",
+    "gap by pressure": "loaded_gap_nm",
+    "largest pressure": "max_pressure_GPa",
+    "load on contact": "load_on_contact",
+    "load on solids": "load_on_solids",
+    "friction": "friction",
 }
 
 
@@ -44,11 +44,12 @@ def run(study):
     for name, (kind, tables) in drawn.items():
         *coarse, finest = _on_grids(study, name, tables, GRIDS[kind])
         for solution in coarse if finest else ():
-            judged = {
-                each: of.judged(solution.result, of.value(finest.result)) for each, of in BANDED.items()
+            own = {
+                each: judged(of, solution.result, number_of(of, finest.result))
+                for each, of in BANDED.items()
             }
-            rows.append(_row(name, solution, judged))
-            for each, band in judged.items():
+            rows.append(_row(name, solution, own))
+            for each, band in own.items():
                 bands.setdefault(f"{each}, {kind}", []).append(band)
     study.write_table("cases", rows)
     study.write_table("bands", summary(bands))
@@ -77,8 +78,8 @@ def _converged(solution):
     return solution is not None and solution.result.converged
 
 
-def _row(name, solution, judged):
+def _row(name, solution, bands):
     row = {"contact": name, "nodes": str(solution.mesh.nx), **told(solution.result, "lambda, inlet cells")}
-    for each, band in judged.items():
-        row |= cells(each, band, BANDED[each].unit)
+    for each, band in bands.items():
+        row |= cells(each, band, BANDED[each])
     return row

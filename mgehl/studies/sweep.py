@@ -20,7 +20,7 @@ from mgehl.output.files import on_first_rank
 from mgehl.output.friction_result import strength_lines
 from mgehl.output.laws import portable
 from mgehl.output.netcdf import netcdf_file, put
-from mgehl.output.quantities import QUANTITIES, Told, read_told, told_at
+from mgehl.output.quantities import Told, numbers_and_bands, read_told, told_at
 from mgehl.output.study_directory import RUNS, StudyRecord
 from mgehl.output.surroundings import versions
 from mgehl.output.table import collect, said
@@ -254,9 +254,7 @@ def _variables(points, runs):
     def numbers(path):
         return [run.number(path) if run.settled else nan for run in runs]
 
-    for name, (path, unit, meaning, band) in QUANTITIES.items():
+    for name, unit, meaning, path in numbers_and_bands():
         yield name, unit, meaning, numbers(path)
-        if band:
-            yield f"{name}_band", unit, f"half-width of the band about the {meaning}", numbers(band)
     yield "converged", "1", "whether all checks hold", [float(run.converged) for run in runs]
     yield "run", "1", f"number of its directory in {RUNS}/", [float(point.number) for point in points]

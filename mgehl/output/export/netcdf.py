@@ -6,9 +6,19 @@ from functools import partial
 import numpy as np
 import tomli_w
 
-from mgehl.output.files import FURTHER, further_fields
+from mgehl.output.files import FURTHER, further_fields, plain_result
 from mgehl.output.laws import portable
 from mgehl.output.netcdf import PLANES, flags, netcdf_file, put
+from mgehl.output.quantities import numbers_and_bands, told_at
+
+GROUPS = {
+    "group_U": "speed parameter U",
+    "group_W": "load parameter W",
+    "group_G": "material parameter G",
+    "moes_M": "load number M of Moes",
+    "moes_L": "material number L of Moes",
+}
+"""Those of a lubricated contact."""
 
 
 def write_netcdf(path, solution):
@@ -26,8 +36,9 @@ def write_netcdf(path, solution):
         write = partial(put, file)
         _write_coordinates(write, solution)
         _write_fields(write, solution)
-        for name, (value, unit, meaning) in solution.config.kind.scalars(solution).items():
-            write(name, (), np.float64(value), units=unit, long_name=meaning)
+        for name, value, unit, meaning in _scalars(solution):
+            if value is not None:
+                write(name, (), np.float64(value), units=unit, long_name=meaning)
 
 
 def _write_coordinates(write, solution):
@@ -54,3 +65,26 @@ def _write_fields(write, solution):
         told = {"coordinates": "x_scaled y_scaled", "units": unit, "long_name": meaning}
         told |= flags(solution.is_dry) if name == "status" else {}
         write(name, ("y", "x"), values, {"compression": "gzip", "compression_opts": 1}, **told)
+
+
+def _scalars(solution):
+    """(Name, value, unit, meaning) of what drives the contact, in time at its end, and of its numbers."""
+    yield from _driving(solution.at_the_end, solution)
+    result = plain_result(solution.result)
+    for name, unit, meaning, path in numbers_and_bands():
+        yield name, told_at(result, path), unit, meaning
+
+
+def _driving(contact, solution):
+    last = solution.last
+    speed = 1e-3 * last["speed_mm_s"] if last else contact.speed
+    if not contact.is_loaded:
+        yield "speed", speed, "m s-1", "speed of the plate"
+        return
+    yield "normal_load", contact.load, solution.config.kind.load_unit.replace("/m", " m-1"), "normal load"
+    if not solution.is_dry:
+        yield "speed", speed, "m s-1", "entrainment speed, negative where it has turned"
+        yield "angle", contact.angle, "degree", "direction of the motion, from +x towards +y"
+        # Of surfaces at rest the groups are those of the largest speed.
+        groups = contact.unheated.at_speed(abs(speed) or contact.speed).groups
+        yield from ((name, getattr(groups, name[-1]), "1", meaning) for name, meaning in GROUPS.items())
