@@ -4,14 +4,12 @@ import numpy as np
 from matplotlib.patches import Patch
 
 from mgehl.discretization.status import CONTACT
-from mgehl.model.surface.shortest import shortest_of
-from mgehl.model.surface.surface import step_of
 from mgehl.output.mixed_words import mixed_note
 from mgehl.output.pictures import maps
 from mgehl.output.pictures.plane import Plane
 from mgehl.output.pictures.style import CONTACT_COLOUR, FILM, HERTZ, SMALL, legend_below, subplots
 from mgehl.output.pictures.titles import gap_words, position_labels, title
-from mgehl.output.surface import surface_verdict, surface_words
+from mgehl.output.surface import surface_words
 
 BARS = "0.7"
 BINS = 61
@@ -33,25 +31,16 @@ def surface_picture(solution):
         legend_below(axes[1], maps.draw_film(axes[1], solution, SMALL), columns=2)
         axes[1].set_title(gap_words(solution.contact)[0])
     _distribution(axes[-1], solution, heights)
-    notes = surface_words(*_seen(solution, heights)), mixed_note(solution.result.mixed)
+    notes = surface_words(*_seen(solution.result)), mixed_note(solution.result.mixed)
     figure.suptitle("\n".join(filter(None, (f"surface, {title(solution)}", *notes))))
     return figure
 
 
-def _inside(solution, heights):
-    """Those of the nodes within the Hertz semi-axes."""
-    mesh, reach = solution.mesh, solution.contact.hertz_under(solution.load_share).reach
-    return heights[np.ix_(np.abs(mesh.Y) <= reach, np.abs(mesh.X) <= reach)]
-
-
-def _seen(solution, heights):
-    """Verdict on the grid and nodes in the shortest wave; of a dry contact by the heights at its nodes."""
-    contact, mesh, found = solution.contact, solution.mesh, solution.result.resolution
-    if found:
+def _seen(result):
+    """Verdict on the grid and nodes in the shortest wave."""
+    if found := result.resolution:
         return found.surface, found.surface_nodes
-    wave = shortest_of(_inside(solution, heights), step_of(solution.x), step_of(solution.y))
-    nodes = wave / contact.longest_cell(mesh)
-    return surface_verdict(contact, nodes), nodes
+    return result.surface.verdict, result.surface.wave_nodes
 
 
 def _height_map(axes, solution, heights):
