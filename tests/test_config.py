@@ -104,6 +104,7 @@ MISTAKES = [
     ("relaxation.omega=0", "relaxation.omega = 0: ", "above 0", "at most 1"),
     ("relaxation.load=1", "relaxation.load = 1: ", "unknown key", "did you mean contact.load?"),
     ("discretization.couette=4B", "discretization.couette = '4B': ", "1B, 2B, 2C, 3B, 3L, S1B, S2C"),
+    ("solver.inlet_cells=1e300", "solver.inlet_cells = 1e+300: ", "must be "),
     ("grid.nodez=129", "grid.nodez = 129: ", "unknown key", "did you mean grid.nodes?"),
     ("gird.nodes=129", "gird = {'nodes': 129}: ", "unknown section", "did you mean grid?"),
     ("qqqq.w=1", "qqqq = {'w': 1}: ", "unknown section",
@@ -205,6 +206,7 @@ FOREIGN_KEYS = [
     ("wedge", "contact.reduced_modulus=2e11"),
     ("wedge", "grid.x=auto"), ("wedge", "discretization.film_threshold=0"), ("wedge", "solver.start=film"),
     ("wedge", "relaxation.omega=0.1"), ("wedge", "surface.kind=dent"),
+    ("wedge", "lubricant.heating=factor"), ("wedge", "contact.ambient_pressure=1e5"),
 ]  # fmt: skip
 
 

@@ -1,7 +1,4 @@
-"""Names, limits and surroundings that are not meant well: an answer, or one line with its status.
-
-`tests/tools/attack.py` makes up many more by chance; here is what once went wrong, or is out of its reach.
-"""
+"""Names, limits and surroundings that are not meant well: an answer, or one line with its status."""
 
 import os
 import shutil
@@ -52,12 +49,6 @@ class TestNamesThatAreNoText:
         assert main(["run", "--resume", NAME, "--quiet"]) == 0
         assert main(["run", f"{NAME}/configuration.toml", "--quiet", "--out", f"{NAME}/again"]) == 0
         assert all(line.isprintable() for line in capsys.readouterr().err.splitlines())
-
-
-@pytest.mark.parametrize("kind", ["line", "point"])
-def test_an_inlet_of_endless_cells_is_refused(refused, kind):
-    line = refused("run", "--set", f"contact.kind={kind}", "--set", "solver.inlet_cells=1e300")
-    assert "solver.inlet_cells = 1e+300: must be " in line
 
 
 @pytest.mark.parametrize("style", ["/dev/zero", "pipe", "folder"])

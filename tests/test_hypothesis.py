@@ -35,7 +35,7 @@ from mgehl.output.stored import read_run
 from mgehl.run import run
 
 THOROUGH = bool(os.environ.get("MGEHL_THOROUGH"))
-SOLVED, RUN = (1000, 100) if THOROUGH else (300, 15)
+SOLVED, RUN = (1000, 100) if THOROUGH else (150, 10)
 PATIENCE = 20.0
 """Seconds of computing that 65 nodes may take; three steps take a fiftieth, twenty a tenth."""
 

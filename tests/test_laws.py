@@ -23,10 +23,6 @@ def barus(at):
     eta = viscosity * np.exp(pressure_viscosity * p)
     return eta, pressure_viscosity * eta
 
-def slipped(at):
-    p, viscosity, pressure_viscosity = at.pressure, at.viscosity, at.pressure_viscosity
-    eta = viscosity * np.exp(pressure_viscosity * p)
-    return eta, pressure_viscosity * viscosity
 
 def steeper(at):
     eta = at.viscosity * np.exp(1.2 * at.pressure_viscosity * at.pressure)
@@ -42,8 +38,7 @@ def flat(x, y):
 def nowhere(x, y):
     return x * np.nan
 
-def jump(k):
-    return np.where(k < 1e4, 1.0, 2.0)
+
 """
 
 
@@ -55,11 +50,9 @@ def laws(tmp_path):
 
 
 REFUSED = {
-    "lubricant.viscosity_law=laws.py:slipped": "its derivative is wrong: d ln(eta)/dp = ",
     "lubricant.viscosity_law=laws.py:steeper": "d ln(eta)/dp at p = 0 is 2.184e-08 1/Pa; must be ",
     "lubricant.density_law=laws.py:none": "the file has no function none",
     "contact.surface=laws.py:nowhere": "must be a height in m of at most 0.000411",
-    "contact.deformation=laws.py:jump": "as a sum of images",
     "contact.surface=pipe.py:flat": "cannot be read: is no file",
     "contact.surface=laws.txt:flat": "must be FILE.py:FUNCTION",
     "lubricant.viscosity_law=newton": "must be one of barus, roelands, constant, FILE.py:FUNCTION",

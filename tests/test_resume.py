@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mpi4py import MPI
-from places import CONFIGS, RUN_FILES, content_of, names_in
+from places import CONFIGS, RUN_FILES, names_in
 from processes import MGEHL, ended, own_environment
 from told import status_of
 
@@ -119,9 +119,9 @@ def assert_same(directory, solution, steps=0):
 
 
 class TestKills:
-    """SIGKILL, fifteen times at random moments: after a line or two were said, and a while later."""
+    """SIGKILL, eight times at random moments: after a line or two were said, and a while later."""
 
-    @pytest.mark.parametrize("kills, ranks, seed", [(10, 1, 1), (5, 2, 2)])
+    @pytest.mark.parametrize("kills, ranks, seed", [(5, 1, 1), (3, 2, 2)])
     def test_nothing_is_lost(self, uninterrupted, tmp_path, kills, ranks, seed):
         chance, here, runs = random.Random(seed), tmp_path / "0", 1
         while kills:
@@ -136,20 +136,9 @@ class TestKills:
         assert exit_status("--resume", str(here)) == 0  # on one rank, whatever it was before
         assert_same(here, uninterrupted(FILM))
 
-    @pytest.mark.parametrize("kills, ranks", [(4, 1), (2, 2)])
-    def test_nor_what_a_rough_contact_has_learnt(self, uninterrupted, tmp_path, kills, ranks):
-        """Each kill falls within a step, all steps before it are saved; in the end on one rank."""
-        chance, here = random.Random(3), tmp_path / "here"
-        while kills and not (here / "result.json").exists():
-            kills -= self.killed(here, ranks, chance, ROUGH)
-            assert_nothing_is_half_written(here)
-        assert (here / "checkpoint" / "under-way.npz").exists()
-        assert exit_status("--resume", str(here)) == 0
-        assert_same(here, uninterrupted(ROUGH), steps=0 if ranks == 1 else 2)
-
-    def killed(self, here, ranks, chance, settings=FILM):
+    def killed(self, here, ranks, chance):
         """Whether a run, or one that goes on, was killed on its way."""
-        anew = [*settings, "--out", str(here), "--force"]
+        anew = [*FILM, "--out", str(here), "--force"]
         arguments = ["--resume", str(here)] if has_begun(here) else anew
         process = start([*arguments, *ALWAYS, "--json-lines"], ranks)
         for _ in range(chance.choice([0, 1, 1, 2])):
@@ -160,12 +149,6 @@ class TestKills:
         status, said = end(process)
         assert said == [] and (status in (0, -signal.SIGKILL) or ranks > 1)
         return status != 0
-
-    def test_a_run_of_one_rank_goes_on_on_two(self, uninterrupted, tmp_path):
-        here = tmp_path / "here"
-        assert exit_status(*SMALL, "--out", str(here), "--time-limit", "1e-9") == 143
-        assert end(start(["--resume", str(here), "--quiet"], ranks=2)) == (0, [])
-        assert_same(here, uninterrupted(SMALL))
 
 
 class TestStops:
@@ -349,18 +332,6 @@ class TestFullDisk:
         disk("4m")
         assert exit_status("--resume", str(here)) == 0
         assert_same(here, uninterrupted(SMALL))
-
-    def test_a_run_to_be_replaced_stays_where_the_disk_is_full(self, disk, refused):
-        path = disk("4m")
-        assert exit_status(*SMALL, "--out", str(path / "here")) == 0
-        before = content_of(path / "here")
-        disk(f"{sum(len(each) for each in before.values()) // 1024 + 280}k")
-        again = [*SMALL, "--set", "motion.speed=0.6", "--out", str(path / "here"), "--force"]
-        assert "cannot be written: No space left on device" in refused("run", *again, "--quiet")
-        assert content_of(path / "here") == before
-        disk("4m")
-        assert exit_status("--resume", str(path / "here")) == 0
-        assert read_run(path / "here").config.motion.speed == 0.6
 
 
 class TestFailingRank:

@@ -276,21 +276,6 @@ def test_roughness_goes_along_where_the_motion_turns(turned):
     assert first.heights == pytest.approx(heights, abs=1e-12)
 
 
-def test_a_course_that_does_not_change_is_no_course(course):
-    speed = course((0.0, 0.09), (1.0, 0.09))
-    one, other = solved(time__end=UNIT), solved(motion__speed=speed, time__end=UNIT)
-    assert one.fields.H == pytest.approx(other.fields.H, abs=1e-9)
-
-
-def test_twice_the_load_in_an_instant(course):
-    load = course((0.0, 15.0), (0.1 * UNIT, 30.0), (0.3 * UNIT, 30.0))
-    wide = {"grid__x": [-2.5, 2.0], "grid__y": [-2.0, 2.0]}
-    after = solved(contact__load=load, time__end=0.3 * UNIT, **wide)
-    assert after.summary.converged
-    assert column(after, "load_share")[-1] == 2.0
-    assert column(after, "max_pressure_GPa")[-1] > 1.2 * column(after, "max_pressure_GPa")[0]
-
-
 @pytest.mark.parametrize("how", ["by a function", "by a table"])
 @pytest.mark.parametrize(
     ("key", "first", "last"), [("contact.load", 15.0, 20.0), ("motion.speed", 0.09, 0.0)]
@@ -382,7 +367,7 @@ def test_heat_thins_the_film_by_the_speed_of_the_instant(course):
         "contact.kind": "line", "contact.load_per_length": 2e5, "contact.radius_x": 0.012,
         "contact.reduced_modulus": 226e9, "lubricant.viscosity": 0.05, "grid.x": [-6.0, 2.0],
         "grid.nodes": 129, "lubricant.conductivity": 0.14, "lubricant.thermoviscosity": 0.045,
-        "motion.speed": course((0.0, 8.0), (1e-4, 2.0), (6e-4, 2.0)), "time.end": 6e-4,
+        "motion.speed": course((0.0, 8.0), (1e-4, 2.0), (4e-4, 2.0)), "time.end": 4e-4,
         "motion.slide_to_roll": 0.5,
     }  # fmt: skip
     configs = (mgehl.load(None, line | {"lubricant.heating": how}) for how in ("none", "factor"))
@@ -403,9 +388,6 @@ def test_rough_bodies_make_no_oil(rough):
     assert rough.summary.time.largest_node < 1e-8
     assert rough.summary.complementarity_error < 1e-6
     assert column(rough, "load_on_contact").max() > 0.0
-
-
-def test_contact_carries_what_solids_and_fluid_do(rough):
     assert np.all(column(rough, "load_on_solids") <= column(rough, "load_on_contact") + 1e-12)
     assert np.abs(column(rough, "load_error")).max() < 1e-4
 
@@ -489,7 +471,7 @@ def test_how_a_film_is_squeezed_does_not_hang_on_the_end_of_the_run():
     flows = solved(motion__speed=0.3)
     short, long = (
         mgehl.solve(mgehl.load(None, BALL | {"motion.speed": 0.0, "time.end": end}), start=flows)
-        for end in (5e-4, 2e-2)
+        for end in (5e-4, 5e-3)
     )
     at, then = column(long, "time_s"), column(short, "time_s")[-1]
     assert np.interp(then, at, column(long, "minimum_film_nm")) == pytest.approx(

@@ -125,17 +125,6 @@ def test_each_grid_has_its_cells_and_the_grid_that_resolves_is_recommended(told)
     assert "no grid up to 16385 does" in told("full_film.toml", "--set", "motion.speed=1e-9")
 
 
-@pytest.mark.parametrize(
-    "words, parts",
-    [(["missing.toml"], ["missing.toml", "cannot be read"]),
-     (["--set", "grid.nodes=66"], ["grid.nodes = 66"]), (["--set", "contact.load=1e9"], ["contact.load"]),
-     (["--ranks", "0"], ["--ranks 0"])],
-)  # fmt: skip
-def test_what_would_not_run_is_one_line_and_status_2(words, parts, refused):
-    line = refused("check", *words)
-    assert all(part in line for part in parts)
-
-
 def test_a_course_of_the_speed_is_resolved_where_its_slowest_motion_is(told, tmp_path_factory):
     """By as many nodes as that speed takes in a steady state."""
     speed = tmp_path_factory.mktemp("courses") / "speed.csv"

@@ -17,13 +17,6 @@ def written(tmp_path):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_the_file_is_a_valid_configuration_of_its_kind(kind, written, capsys):
-    written(kind)
-    assert load_config("mine.toml").contact.kind == kind
-    assert "mine.toml" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize("kind", KINDS)
 def test_every_key_that_means_something_is_there_with_its_meaning(kind, written):
     text = written(kind)
     flat = " ".join(line.removeprefix("# ") for line in text.splitlines())

@@ -49,18 +49,6 @@ def test_another_file_is_replaced_only_with_force(here, refused):
     assert "report.html" not in names_in(here / "dry")
 
 
-@pytest.mark.parametrize("damage", ["missing", "cut off"])
-def test_a_damaged_run_is_refused_and_writes_nothing(here, refused, damage):
-    path = here / "dry" / "fields.h5"
-    if damage == "missing":
-        path.unlink()
-    else:
-        path.write_bytes(path.read_bytes()[:-40])
-    before = names_in(here / "dry")
-    refused("report", "dry")
-    assert names_in(here / "dry") == before
-
-
 def test_somebodys_tables_are_no_study(here, refused):
     """They were a study whose table was cut off."""
     (here / "race.csv").write_text("x [um];y [um];z [nm]\n0,0;0,0;-87,6\n")

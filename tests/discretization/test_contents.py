@@ -1,6 +1,6 @@
 import numpy as np
 
-from mgehl.discretization.contents import OVERFULL, feeding, missing_fillings
+from mgehl.discretization.contents import feeding, missing_fillings
 
 
 def masks(*lines):
@@ -27,15 +27,6 @@ def test_cavities_feed_through_cavities_of_the_next_line():
     assert feeding(*fields, True).tolist() == [[0, 1, 0, 0, 0], [0, 1, 1, 0, 0]]
 
 
-def risen(inflow, leaving_x, leaving_y=0.0, marched=None):
-    inflow = np.atleast_2d(np.array(inflow, float))
-    if marched is None:
-        marched = np.ones(inflow.shape, bool)
-        marched[:, [0, -1]] = False
-    leaving = (np.array(np.broadcast_to(each, inflow.shape), float) for each in (leaving_x, leaving_y))
-    return missing_fillings(marched, inflow, *leaving, np.zeros(inflow.shape))
-
-
 def test_wherever_a_rise_is_marched_no_inflow_is_left():
     """At an angle; with other nodes between, which carry nothing on."""
     rng = np.random.default_rng(5)
@@ -51,9 +42,3 @@ def test_wherever_a_rise_is_marched_no_inflow_is_left():
     assert not rise[~marched].any()
     assert rise[marched].all()
     np.testing.assert_allclose(left[marched], 0.0, atol=1e-15)
-
-
-def test_no_rise_is_more_than_overfull():
-    """And no more is carried on; nor does it matter that nothing leaves."""
-    assert risen([0.0, 9.0, 0.0, 0.0], 2.0)[0].tolist() == [0.0, OVERFULL, OVERFULL, 0.0]
-    assert risen([0.0, 9.0, 1.0, 0.0], [2.0, 0.0, 2.0, 2.0])[0].tolist() == [0.0, OVERFULL, 0.5, 0.0]

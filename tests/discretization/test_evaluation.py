@@ -9,7 +9,6 @@ from mgehl.discretization.evaluation import Evaluation
 from mgehl.discretization.fluid import FACE_MOBILITIES
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import LUBRICATED
 
 every_mean = pytest.mark.parametrize("mean", FACE_MOBILITIES)
 
@@ -100,16 +99,3 @@ def test_S1B_loses_fluid_inside_a_patch_by_the_extra_term_of_eq_12(film):
     second = rho[lines, west + 1] - 2.0 * rho[lines, west] + rho[lines, west - 1]
     assert imbalance == pytest.approx((second * H[lines, west]).sum() * film.mesh.dY, rel=1e-9)
     assert abs(imbalance) > 1e-5
-
-
-def test_nothing_crosses_the_walls_of_a_single_line(contact):
-    """All inflow is along the line, whatever pressure lies beyond."""
-    mesh = Mesh(8, 1, (-1.9, 1.3), (0.0, 0.0))
-    rng = np.random.default_rng(2)
-    P, H = rng.uniform(0.2, 0.8, (5, 8)), rng.uniform(0.05, 0.15, (5, 8))
-    evaluation = Evaluation(P, H, walled(np.full((1, 8), LUBRICATED)), mesh, contact, Scheme())
-    ((leaving, entering),) = evaluation.flows
-    along = (entering.value[:, :-1] - leaving.value[:, 1:]) / mesh.dX
-    np.testing.assert_allclose(evaluation.inflow[:, 1:-1], along, rtol=1e-14)
-    _, across = evaluation.conductances
-    assert across.shape == (2, 8) and not across.any()

@@ -5,12 +5,11 @@ import os
 import platform
 import sys
 
-import numpy as np
 import pytest
 from mpi4py import MPI
 from processes import ended
 
-from mgehl.grid import freed_memory, shared_memory
+from mgehl.grid import shared_memory
 from mgehl.grid.shared_memory import shared_array
 
 FREE = """
@@ -35,14 +34,6 @@ def test_a_freed_array_is_given_back():
     """PETSc's libraries may have told the C library to keep it."""
     held, left = map(float, ended([sys.executable, "-c", FREE]).stdout.split())
     assert held > 60.0 and left < 4.0
-
-
-def test_a_film_is_the_same_where_memory_is_short(solve, paper_contact, monkeypatch):
-    usual = solve(paper_contact(), 65).outcome
-    monkeypatch.setattr(freed_memory, "LARGE_GRID", 0)
-    short = solve(paper_contact(), 65).outcome
-    assert len(short.cycles) == len(usual.cycles)
-    np.testing.assert_allclose(short.state.P, usual.state.P, rtol=0.0, atol=1e-12)
 
 
 pytestmark = pytest.mark.skipif(not shared_memory.DIRECTORY.is_dir(), reason="files are no memory here")

@@ -82,11 +82,6 @@ def test_a_line_contact_has_no_heights_that_vary_along_y(table, start):
     checked(contact={"kind": "line"}, surface=ROUGH | {"angle": 30.0, "aspect": 2.0})
 
 
-def test_a_wedge_has_none():
-    said = refusal(checked, contact={"kind": "wedge"}, surface=DENT, motion={})
-    assert said.startswith("surface.kind = 'dent': means nothing where contact.kind")
-
-
 @pytest.mark.parametrize("angle", [0.0, 90.0])
 def test_ridges_along_the_motion_may_move(angle):
     ridges = {"kind": "ridge", "amplitude": 1e-7, "width": 1e-4, "angle": angle + 90.0, "body": "moving"}

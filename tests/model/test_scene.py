@@ -5,7 +5,7 @@ from mgehl.config import load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from
 from mgehl.kinds.time import scene_of
-from mgehl.solver.pace import AIM, SHORTEST, Pace, expected_steps
+from mgehl.solver.pace import Pace, expected_steps
 
 WAVES = {"surface.kind": "waviness", "surface.amplitude": 1e-8, "surface.wavelength_x": 1e-4}
 
@@ -136,38 +136,29 @@ def loads_seen(load, end, step, speed=0.01):
     return seen
 
 
-def test_no_step_goes_over_what_a_function_of_time_does(tmp_path):
+PULSE = "lambda t: 20.0 * (1.0 + 2.0 * np.exp(-(((t - 5.3e-4) / 1e-5) ** 2)))"
+WAVE, NOISE = np.linspace(0.0, 1e-2, 10_001), np.linspace(0.0, 1e-2, 1_001)
+COURSES = {
+    "a function's pulse": (None, 1e-3, 1e-4, 0.01, lambda seen: max(seen) > 0.9 * 60.0),
+    "a table's pulse": (([0, 0.15, 0.1505, 0.151, 0.3], [20, 20, 40, 20, 20]), 0.3, 0.05, 1e-4,
+                        lambda seen: max(seen) == 40.0),
+    "an even fall": (([0, 0.15, 0.151, 0.3], [20, 20, 2, 2]), 0.3, 0.05, 1e-4,
+                     lambda seen: sum(2.0 < load < 20.0 for load in seen) >= 4),
+    "ten thousand rows of a wave": ((WAVE, 20.0 + 10.0 * np.sin(2e2 * np.pi * WAVE)), 1e-2, 1e-3, 0.01,
+                                    lambda seen: max(seen) > 29.5 and min(seen) < 10.5),
+    "noise": ((NOISE, 20.0 + 1e-3 * np.random.default_rng(1).standard_normal(1_001)), 1e-2, 1e-3, 0.01,
+              all),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("rows, end, step, speed, is_seen", COURSES.values(), ids=COURSES)
+def test_steps_see_what_a_load_does_and_are_few(tmp_path, rows, end, step, speed, is_seen):
     """A load that is three times as large for 20 us of 1 ms: steps of 100 us saw nothing of it."""
-    pulse = "20.0 * (1.0 + 2.0 * np.exp(-(((t - 5.3e-4) / 1e-5) ** 2)))"
-    (tmp_path / "mine.py").write_text(f"import numpy as np\ndef load(t):\n    return {pulse}\n")
-    seen = loads_seen(f"{tmp_path}/mine.py:load", 1e-3, 1e-4)
-    assert max(seen) > 0.9 * 60.0 and len(seen) < 40
-
-
-def test_no_step_goes_over_a_pulse_of_a_table(tmp_path):
-    """Twice the load for 1 ms of a third of a second, in which slow surfaces go 0.0076 cells: no step ended
-    in it."""
-    pulse = tmp_path / "pulse.csv"
-    pulse.write_text("0,20\n0.15,20\n0.1505,40\n0.151,20\n0.3,20\n")
-    seen = loads_seen(pulse, 0.3, 0.05, speed=1e-4)
-    assert max(seen) == 40.0 and len(seen) < 24
-
-
-def test_a_table_of_many_rows_takes_no_step_for_each(tmp_path):
-    """Ten thousand rows of one wave are seen as the wave."""
-    times = np.linspace(0.0, 1e-2, 10_001)
-    wave = tmp_path / "wave.csv"
-    np.savetxt(wave, np.column_stack([times, 20.0 + 10.0 * np.sin(2e2 * np.pi * times)]), delimiter=",")
-    seen = loads_seen(wave, 1e-2, 1e-3)
-    assert max(seen) > 29.5 and min(seen) < 10.5 and len(seen) < 40
-
-
-def test_noise_of_a_load_that_stays_takes_no_step_for_each_row(tmp_path):
-    times = np.linspace(0.0, 1e-2, 1_001)
-    noise = tmp_path / "noise.csv"
-    load = 20.0 + 1e-3 * np.random.default_rng(1).standard_normal(times.size)
-    np.savetxt(noise, np.column_stack([times, load]), delimiter=",")
-    assert len(loads_seen(noise, 1e-2, 1e-3)) < 40
+    (tmp_path / "mine.py").write_text(f"import numpy as np\nload = {PULSE}\n")
+    if rows:
+        np.savetxt(tmp_path / "load.csv", np.column_stack(rows), delimiter=",")
+    seen = loads_seen(tmp_path / "load.csv" if rows else f"{tmp_path}/mine.py:load", end, step, speed)
+    assert is_seen(seen) and len(seen) < 40
 
 
 @pytest.mark.parametrize("periods", [10, 1000])
@@ -180,19 +171,3 @@ def test_steps_of_a_wave_are_foretold(tmp_path, periods):
     found = scene({"contact.load": load, "time.end": end, "motion.speed": 0.01})
     steps = expected_steps(found, Mesh(65, 65, (-2.0, 2.0), (-2.0, 2.0)))
     assert 7 * periods < steps < 20 * periods
-
-
-def test_a_load_that_falls_evenly_is_seen_to_fall(tmp_path):
-    """Slow rough surfaces took one step for it, for their pressures tell no error."""
-    fall = tmp_path / "fall.csv"
-    fall.write_text("0,20\n0.15,20\n0.151,2\n0.3,2\n")
-    seen = loads_seen(fall, 0.3, 0.05, speed=1e-4)
-    assert sum(2.0 < load < 20.0 for load in seen) >= 4 and len(seen) < 24
-
-
-def test_a_step_is_as_short_as_its_error_asks_for():
-    """Of a light ball a film of 600 nm was 7600: no step went less than half of a cell."""
-    found, mesh = scene({"time.end": 1.0}), Mesh(65, 65, (-2.0, 2.0), (-2.0, 2.0))
-    pace, cell = Pace(found, mesh, None), mesh.dX * found.unit
-    assert pace.next(0.0, 0.1 * cell, 4.0 * AIM, halved=False) == pytest.approx(0.05 * cell)
-    assert pace.next(0.0, SHORTEST * cell, 4.0 * AIM, halved=False) == pytest.approx(SHORTEST * cell)

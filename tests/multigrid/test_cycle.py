@@ -3,72 +3,13 @@ import weakref
 
 import numpy as np
 import pytest
-from mpi4py import MPI
-from petsc4py import PETSc
 
 import mgehl
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import LUBRICATED
 from mgehl.multigrid.coarse import dense_influence
 from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
 from mgehl.multigrid.stencil_matrix import stencil_rows
 from mgehl.solver.problem import ContactProblem
-
-SIZES = (65, 129)
-
-
-@pytest.fixture
-def make_ksp(in_the_end):
-    def make(multigrid, rtol=1e-2):
-        ksp = in_the_end(PETSc.KSP.destroy, PETSc.KSP().create(MPI.COMM_SELF))
-        ksp.setOptionsPrefix("test_")
-        multigrid.configure(ksp, rtol)
-        return ksp
-
-    return make
-
-
-@pytest.fixture
-def film(solve, paper_contact, make_multigrid):
-    """Function: the film problem at 1 m/s linearised about its solution, on n nodes by a scheme."""
-
-    def make(nodes, scheme="1B", **settings):
-        solution = solve(paper_contact(), nodes, couette=scheme)
-        state = solution.outcome.state
-        return make_multigrid(solution.hierarchy, solution.problem, state, **settings), state
-
-    return make
-
-
-def right_hand_side(kind, multigrid, state, where=None):
-    """Residuals of the film nodes: white noise, or one long bulge; and a load error."""
-    where = state.status == LUBRICATED if where is None else where
-    grid = multigrid.space.grid
-    if kind == "noise":
-        r = np.random.default_rng(11).standard_normal(grid.shape)
-    else:
-        r = np.exp(-(grid.X**2) - grid.Y**2)
-    return np.where(where, r, 0.0), 0.3
-
-
-@pytest.mark.parametrize("kind", ["noise", "bulge"])
-@pytest.mark.parametrize("nodes", SIZES)
-@pytest.mark.parametrize(
-    "couette, cycle, sweeps, most", [("1B", "same", 1, 6), ("1B", "same", 2, 5), ("2B", "1B", 1, 12)]
-)
-def test_gmres_iterations(film, make_ksp, make_vec, nodes, kind, couette, cycle, sweeps, most):
-    """To the KSP's tolerance, which the true residual must meet, too; 2B by cycles of 1B."""
-    multigrid, state = film(nodes, couette, couette=cycle, sweeps=sweeps)
-    ksp = make_ksp(multigrid)
-    b, x, r = (make_vec(multigrid.space) for _ in range(3))
-    multigrid.space.write(b, *right_hand_side(kind, multigrid, state))
-    ksp.solve(b, x)
-    assert ksp.getConvergedReason() > 0
-    multigrid.jacobian.mat.mult(x, r)
-    r.aypx(-1.0, b)
-    assert r.norm() <= 1.01 * ksp.getTolerances()[0] * b.norm()
-    assert ksp.getIterationNumber() <= most
-
 
 SOFT_LINE = {
     "contact.kind": "line", "contact.load_per_length": 18e3, "contact.radius_x": 41.6e-3,

@@ -75,20 +75,6 @@ def test_it_solves_with_that_matrix_in_its_zone(jacobian, masks, zone, nearby):
         np.testing.assert_allclose(found, w, rtol=0.0, atol=1e-9)
 
 
-def test_it_does_not_depend_on_what_was_solved_before(jacobian, influence, masks, zone, nearby):
-    """To the last bit: a run that goes on begins in the middle."""
-    r, later = np.random.default_rng(4).standard_normal(jacobian.grid.shape), []
-    nearby.factor(*masks)
-    jacobian.linearisation.A[:] *= 10.0 ** np.linspace(-3.0, 3.0, jacobian.grid.mesh.nx)
-    resumed = NearbySolve(jacobian, influence, SHARE, zone)
-    for each in (nearby, resumed):
-        later.append(np.zeros(jacobian.grid.shape))
-        each.factor(*masks)
-        each.solve(r, later[-1])
-    resumed.free()
-    np.testing.assert_array_equal(*later)
-
-
 def test_without_a_package_each_rank_solves_the_whole(monkeypatch, jacobian, masks, zone, nearby):
     monkeypatch.setattr("mgehl.multigrid.nearby.PACKAGES", ())
     test_it_solves_with_that_matrix_in_its_zone(jacobian, masks, zone, nearby)

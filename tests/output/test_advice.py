@@ -31,23 +31,6 @@ def test_the_other_start(start, other):
     assert any(f'solver.start = "{other}"' in each for each in tries)
 
 
-def test_a_grid_that_does_not_see_the_inlet_comes_first():
-    _, first, *_ = advice(resolution=Resolution(0.25, "grid-determined", "sufficient", 0.1))
-    assert "the inlet has 0.25 cells and needs 4" in first and "mgehl check" in first
-
-
-def test_a_domain_that_cuts_the_contact():
-    _, first, *_ = advice(["grid.x=[-1.05, 1.3]"], edge=replace(NOT_SEEN, pressure_ratio=0.5))
-    assert first.startswith('  grid.x = "auto" and grid.y = "auto"')
-    _, *alone = advice(edge=replace(NOT_SEEN, pressure_ratio=0.5), settled=True)
-    assert len(alone) == 1 and alone[0].startswith("  grid.x = [")
-
-
-def test_a_limit_that_was_lowered_comes_first():
-    _, first, *_ = advice(["solver.max_work=20"], resolution=Resolution(0.25, "grid-determined", "", 0.1))
-    assert first.startswith("  solver.max_steps, solver.max_work: more than 400, 20")
-
-
 @pytest.mark.parametrize(("squeeze", "told"), [(0.0, True), (10.0, False)])
 def test_peaks_that_touch_are_told_of_shorter_steps(squeeze, told):
     tries = "\n".join(advice([f"solver.squeeze={squeeze}"], recipe={"peaks": "touching"}))
@@ -55,10 +38,21 @@ def test_peaks_that_touch_are_told_of_shorter_steps(squeeze, told):
     assert "solver.squeeze" not in "\n".join(advice(recipe={"peaks": "none"}))
 
 
-@pytest.mark.parametrize(("couette", "told"), [("3L", True), ("1B", False)])
-def test_the_first_order_scheme_is_told_of_where_it_was_not_used(couette, told):
-    first = advice(recipe={"couette": couette})[1]
-    assert first.startswith('  discretization.couette = "1B"') is told
+UNSEEN = Resolution(0.25, "grid-determined", "sufficient", 0.1)
+CUT = replace(NOT_SEEN, pressure_ratio=0.5)
+
+
+@pytest.mark.parametrize(
+    "settings, changes, first",
+    [([], {"resolution": UNSEEN}, "the inlet has 0.25 cells and needs 4"),
+     (["solver.max_work=20"], {"resolution": UNSEEN},
+      "solver.max_steps, solver.max_work: more than 400, 20"),
+     (["grid.x=[-1.05, 1.3]"], {"edge": CUT}, 'grid.x = "auto" and grid.y = "auto"'),
+     ([], {"edge": CUT, "settled": True}, "grid.x = ["),
+     ([], {"recipe": {"couette": "3L"}}, 'discretization.couette = "1B"')],
+)  # fmt: skip
+def test_what_comes_first(settings, changes, first):
+    assert first in advice(settings, **changes)[1]
 
 
 @pytest.mark.parametrize("settings", [["contact.kind=wedge"], ["discretization.contact_model=dry"]])

@@ -91,11 +91,6 @@ class TestFile:
                         np.testing.assert_array_equal(array, self.ARRAYS[name])
         assert refused > len(whole)
 
-    @pytest.mark.parametrize("name, value", [("VERSION", "99.0"), ("FORMAT", checkpoint.FORMAT + 1)])
-    def test_another_version(self, path, monkeypatch, name, value):
-        monkeypatch.setattr(checkpoint, name, value)
-        assert f"written by mgehl {self.RECORD['mgehl']}, and " in self.refused(path)
-
     @pytest.mark.parametrize("make", [os.mkfifo, os.mkdir, partial(os.symlink, "/dev/zero")])
     def test_what_is_no_plain_file(self, path, make):
         """It may have no end."""

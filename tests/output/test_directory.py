@@ -1,7 +1,5 @@
 import json
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import h5py
@@ -159,40 +157,7 @@ class TestForeign:
         assert (tmp_path / "result.json").read_text() == "mine" and not (tmp_path / "fields.h5").exists()
 
 
-WRITER = """
-import sys
-from mpi4py import MPI
-from mgehl.output import finish
-from mgehl.output.archive import save
-from mgehl.output.checkpoint import FORMAT, begin_run
-from test_directory import SOLUTIONS
-finish._is_drawn = lambda *_: False
-print("begun", flush=True)
-for number in range(int(sys.argv[2])):
-    solution = SOLUTIONS[-0.25 if number % 2 else -0.5]
-    begin_run(sys.argv[1], solution.config)
-    finish.finish_run(MPI.COMM_SELF, sys.argv[1], solution)
-"""
-
-
 class TestPublishing:
-    def test_a_reader_finds_the_old_run_or_the_new_one(self, tmp_path):
-        """Whenever it reads while another process writes a run over and over."""
-        put(tmp_path / "run", -0.5)
-        path = os.pathsep.join([str(Path(__file__).parent), *sys.path])
-        words = [sys.executable, "-c", WRITER, str(tmp_path / "run"), "100"]
-        environment = os.environ | {"PYTHONPATH": path}
-        with subprocess.Popen(words, stdout=subprocess.PIPE, env=environment) as writer:
-            writer.stdout.readline()
-            found = []
-            while writer.poll() is None:
-                read = read_run(tmp_path / "run")
-                known = SOLUTIONS[read.H0]
-                assert (read.fields.P == known.fields.P).all() and read.rows == known.rows
-                assert read.result.wall_s == known.result.wall_s
-                found.append(read.H0)
-        assert writer.returncode == 0 and {*found} == {-0.25, -0.5}
-
     @pytest.mark.parametrize("moved", range(0, 19))
     def test_an_end_in_between_leaves_old_or_new_and_is_made_good(self, tmp_path, monkeypatch, moved):
         """After so many steps."""

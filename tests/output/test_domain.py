@@ -6,7 +6,6 @@ from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.kinds.time import scene_of
 from mgehl.output.resolution import (
-    beyond_words,
     domain_words,
     film_lost,
     load_beyond,
@@ -64,20 +63,6 @@ def test_surfaces_that_turn_round_are_judged_either_way(tmp_path):
 
 def judged(contact, mesh, scene=None):
     return film_lost(contact, mesh, scene), load_beyond(contact, mesh, scene)
-
-
-@pytest.mark.parametrize(
-    "percent, said",
-    [
-        (0.04, []),
-        (3.0, "3.0 % of it is"),
-        (-6.19, "6.2 % of it more is"),
-        (50.0, "at least 50.0 % of it is"),
-    ],
-)
-def test_what_lies_beyond_the_domain_is_told_and_what_sucks_there(percent, said):
-    words = beyond_words(percent)
-    assert words == said or words[0].startswith(said)
 
 
 def test_a_domain_that_cuts_the_film_itself_takes_more_than_is_reckoned():

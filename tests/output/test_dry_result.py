@@ -142,16 +142,3 @@ class TestBands:
         found = solved(ball, DRY, {"contact": {"surface": f"{tmp_path}/peaks.py:peaks"}})
         assert found.result.converged and not found.fields.P[::2, ::2].any()
         assert found.result.dry_error.area_fraction > 0.0
-
-    @pytest.mark.parametrize(
-        "tables, why",
-        [
-            ({"solver": {"error": False}}, "not asked for"),
-            ({"surface": {"wavelength_x": 40e-6}}, "the surface is the grid's"),
-            ({"solver": {"max_steps": 1}}, "the run has not converged"),
-        ],
-    )
-    def test_none_says_why(self, tables, why):
-        error = solved(DRY_WAVES, tables, {"grid": {"nodes": 65}}).result.dry_error
-        assert error.area_fraction is error.max_pressure_GPa is error.approach_um is None
-        assert why in error.how

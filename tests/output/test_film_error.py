@@ -91,18 +91,6 @@ class TestWhetherThereIsOne:
         assert error.central_nm is None and error.minimum_nm is None and "65 nodes" in error.how
 
 
-def test_contact_on_the_next_grid_or_an_inlet_of_less_than_a_cell_makes_it_wider_and_is_said(film):
-    """Errors of second order are 4 and 1 nm."""
-    plain, touching = (from_grids(film, grids(10.0, 7.0, contact=nodes), 2) for nodes in (0, 4))
-    assert plain.central_nm > 4.0 and plain.minimum_nm > 1.0 and "wider" not in plain.how
-    assert (plain.central_order, plain.order) == (None, 2) and "65 nodes" in plain.how
-    coarse = from_grids(replace(film, resolution=Resolution(1.5, "coarse")), grids(10.0, 7.0), 2)
-    told = "touches at 4", "on 65 nodes the inlet has less than a cell"
-    for wider, words in zip((touching, coarse), told, strict=True):
-        assert words in wider.how
-        assert wider.central_nm > plain.central_nm and wider.minimum_nm > plain.minimum_nm
-
-
 class TestOfRuns:
     @pytest.mark.parametrize(
         "couette, mean", [("1B", "arithmetic"), ("2B", "arithmetic"), ("3B", "logarithmic")]

@@ -5,9 +5,9 @@ from mpi4py import MPI
 from places import CONFIGS
 
 from mgehl.config import load_config
-from mgehl.kinds import case_of, contact_from, mesh_from
+from mgehl.kinds import contact_from, mesh_from
 from mgehl.output import forecast as module
-from mgehl.output.forecast import MiB, forecast, inlet_grids
+from mgehl.output.forecast import MiB, forecast
 from mgehl.run import solve
 
 
@@ -26,22 +26,6 @@ def one_second(monkeypatch):
 def foretold(config, ranks=1):
     contact = contact_from(config)
     return forecast(config, contact, mesh_from(config, contact), ranks)
-
-
-ALONG_Y = {"motion.angle": 90.0, "grid.x": [-3.0, 3.0], "grid.y": [-2.0, 2.0]}
-"""Motion along y, whose cells are smaller: they are solved as X."""
-
-
-@pytest.mark.parametrize(
-    "speed, changes", [(0.2, {}), (0.7, ALONG_Y)], ids=["along x", "along y, by smaller cells"]
-)
-def test_speeds_are_those_that_the_nested_iteration_solves_at(speed, changes):
-    config = film(nodes=129, speed=speed, **changes)
-    grids = inlet_grids(case_of(config))
-    assert [grid.nodes for grid in grids] == [33, 65, 129]
-    rows = solve(config, MPI.COMM_SELF).rows
-    solved = {row["grid"]: row["speed_mm_s"] for row in rows}
-    assert solved == {grid.nodes: pytest.approx(1e3 * grid.speed) for grid in grids if grid.speed}
 
 
 @pytest.mark.parametrize(

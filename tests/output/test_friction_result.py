@@ -12,7 +12,6 @@ from mgehl.output import friction_result as module
 from mgehl.output.friction_result import banded, friction_lines, friction_result, with_moments
 from mgehl.output.gap_error import GapError, GridGap, no_band
 from mgehl.output.report.run_report import report
-from mgehl.output.words import thinning_words
 from mgehl.solver.shear import Shear
 
 MESH = Mesh(65, 65, (-40.0, 40.0), (-40.0, 40.0))
@@ -79,14 +78,6 @@ def test_where_there_is_no_band_at_all_friction_is_the_grid_s_too(found):
     assert unseen.is_the_grids and not not_asked.is_the_grids
 
 
-def test_rolling_has_a_band_of_its_own(found):
-    """Under waves of few nodes it fell by a third from grid to grid."""
-    for slides in (0.0, 0.2):
-        result = banded(found(slides), replace(by_grids(0.02), rolling=2e-4), 0.1)
-        line, *_ = friction_lines(result, verbose=True)
-        assert f"rolling takes {result.rolling_coefficient:.3g} ± 0.0002 of the load" in line
-
-
 @pytest.mark.parametrize("solids, friction", [(None, 1e-4), (0.02, None)])
 def test_where_the_load_on_solids_or_shear_is_the_grid_s_so_is_friction(found, solids, friction):
     result = banded(found(0.2), by_grids(solids, friction), 0.1)
@@ -124,26 +115,3 @@ def test_the_film_without_thinning_is_told_beside_the_thinned_one(surface):
     name, minimum = "mean gap" if surface else "central film", thick.minimum_film_nm
     assert f"without that the {name} would be {thinned.friction.unthinned_film_nm:.4g} nm" in str(thinned)
     assert thinned.friction.unthinned_minimum_nm == pytest.approx(minimum, rel=1e-5)
-
-
-@pytest.mark.parametrize(
-    "unthinned, words",
-    [
-        ((13.0, 6.5), "shear thins the oil: without that the central film would be 13 nm"),
-        ((11.99, 6.5), "shear thins the oil: without that the minimum film would be 6.5 nm"),
-        ((11.99, 6.001), "shear thins the oil, the film hardly"),
-        ((11.99, None), "shear thins the oil, the film hardly"),
-        ((11.9, 6.5), "shear thins the oil: without that the central film would be 11.9 nm"),
-        ((None, None), None),
-    ],
-)
-def test_no_film_is_told_that_would_be_as_thick(found, unthinned, words):
-    """Of films of 12 and 6 nm; an older result has no minimum."""
-    friction = replace(found(0.2), unthinned_film_nm=unthinned[0], unthinned_minimum_nm=unthinned[1])
-    result = SimpleNamespace(friction=friction, mixed=None, central_film_nm=12.0, minimum_film_nm=6.0)
-    assert list(thinning_words(result)) == ([words] if words else [])
-
-
-def test_thinning_is_told_where_the_other_film_is_not_known(found):
-    (words,) = thinning_words(SimpleNamespace(friction=replace(found(0.2), thins=True), mixed=None))
-    assert words.startswith("shear thins the oil: how thick")

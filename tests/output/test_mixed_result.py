@@ -1,5 +1,4 @@
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,7 +8,7 @@ from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
 from mgehl.model.surface import Waviness
-from mgehl.output.mixed_result import Nodes, measured, mixed_result, patch_sizes
+from mgehl.output.mixed_result import Nodes, measured, patch_sizes
 from mgehl.output.mixed_words import mixed_lines
 from mgehl.solver.gaps import within_hertz
 
@@ -97,21 +96,6 @@ def test_the_filling_is_that_of_cavities_within_the_ellipse(contact, nodes):
     for i, filling in ((7, 0.25), (9, 0.75), (1, 0.0)):  # the last is outside
         nodes.status[4, i], nodes.filling[4, i] = CAVITATED, filling
     assert measured(contact, MESH, nodes).torn_filling == pytest.approx(0.5)
-
-
-def test_heights_are_about_the_mean_that_sq_is_of(contact, make_problem):
-    """A surface that lies higher has the same valleys."""
-    level, found = (
-        SimpleNamespace(height=lambda x, y: WAVES.height(x, y) + 1e-6, shortest=WAVES.shortest),
-        [],
-    )
-    for surface in (WAVES, level):
-        problem = make_problem(contact=replace(contact, surface=surface), nodes=33)
-        H = 1.0 + np.arange(33.0**2).reshape(33, 33)
-        state = problem.state(np.zeros(H.shape), 0.0, np.full(H.shape, LUBRICATED))
-        found.append(mixed_result(problem, replace(state, H=H)))
-    assert found[0].valley_film_nm == pytest.approx(found[1].valley_film_nm)
-    assert found[0].valley_film_nm != pytest.approx(found[0].mean_film_nm)
 
 
 def test_a_line_contact_has_areas_of_a_metre_of_it():

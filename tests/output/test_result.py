@@ -44,13 +44,6 @@ def touch(state, nodes):
         state.status[j, i], state.P[j, i], state.H[j, i] = CONTACT, 0.5, 0.0
 
 
-def test_what_newton_gave_up_is_not_converged(summary, outcome):
-    outcome.converged, outcome.reason = False, "residual 1.0 after 3 steps"
-    result = summary()
-    assert not result.converged
-    assert result.reason == "residual 1.0 after 3 steps"
-
-
 def test_a_violation_of_eq_2_is_not_converged(summary, outcome):
     """Contact under 0.5 amid fluid of 0.75: with all errors it is 0.734375 at the interface at the most."""
     outcome.state.P[1:-1, 1:-1], outcome.state.H[:] = 0.75, 0.0

@@ -9,7 +9,7 @@ import pytest
 from mpi4py import MPI
 from told import refusal
 
-from mgehl.config import config_from_tables, load_config
+from mgehl.config import config_from_tables
 from mgehl.errors import OutputError, UserError
 from mgehl.output.checkpoint import begin_run
 from mgehl.output.export.export import export
@@ -201,9 +201,3 @@ class TestOwnLaws:
             if path.is_file():
                 assert str(tmp_path).encode() not in path.read_bytes(), path
         assert (laid / "laws" / "a.py").read_text() == self.LAW
-
-    def test_it_runs_again_elsewhere(self, laid, tmp_path):
-        elsewhere = laid.rename(tmp_path / "elsewhere")
-        (tmp_path / "a.py").unlink()
-        again = solve(load_config(elsewhere / "configuration.toml"), MPI.COMM_SELF)
-        np.testing.assert_array_equal(again.fields.H, read_run(elsewhere).fields.H)

@@ -10,7 +10,6 @@ from mgehl.kinds import checked_case
 from mgehl.output.series import MEANS
 from mgehl.output.time_error import from_rows
 from mgehl.run import Watch, enter, run
-from mgehl.solver.pace import Retraced
 
 UNIT = 1.52e-3
 BALL = {
@@ -29,32 +28,6 @@ def scene(**more):
     return checked_case(mgehl.load(None, BALL | {"time.end": 5.0 * UNIT} | named)).scene
 
 
-def test_steps_are_taken_two_at_a_time_but_for_kinks(tmp_path):
-    table = tmp_path / "load.csv"
-    table.write_text("t [ms],F [N]\n0,15\n2.5,30\n5,30\n")
-    pace = Retraced([1e-3, 2e-3, 2.5e-3, 3e-3, 4e-3], scene(contact__load=str(table), time__end=4e-3))
-    t, ends = 0.0, []
-    step = pace.first()
-    while step:
-        t += pace.fitted(t, step)
-        ends.append(1e3 * t)
-        step = pace.next(t, step, 0.0, False)
-    assert ends == pytest.approx([2.0, 2.5, 3.0, 4.0])
-
-
-def test_rows_of_something_smooth_are_no_kinks(tmp_path):
-    """A comparison took a step for each of them."""
-    times = np.linspace(0.0, 4e-3, 4001)
-    table = tmp_path / "load.csv"
-    np.savetxt(table, np.column_stack([times, 15.0 + 5.0 * np.sin(1e3 * times)]), delimiter=",")
-    found = scene(contact__load=str(table), time__end=4e-3)
-    for step in (1e-4, 1e-6):  # that of the rows
-        steps = (step * np.arange(1, 5)).tolist()
-        pace = Retraced(steps, found)
-        assert pace.first() == pytest.approx(2.0 * step)
-        assert pace.next(steps[1]) == pytest.approx(2.0 * step)
-
-
 def row(t, step, value, **more):
     columns = {name: value for name in MEANS} | {"pressure_crest": 0.0, "load_on_solids": 0.0}
     way = 1e6 * 0.09 * t
@@ -66,34 +39,6 @@ def rows(value, coarse=1, steps=8):
     """Of steps of a fourth of a Hertz radius, or `coarse` times as long; `value(k)` is that of the k-th."""
     dt = coarse * 0.25 * UNIT
     return [row((k + 1) * dt, dt, value(k), grid=65 // coarse) for k in range(steps // coarse)]
-
-
-def test_bands_are_the_differences_and_half_of_their_mean_size():
-    """A coarser grid has 2 more all the time, and 4 more in the last of four steps."""
-    fine = rows(lambda k: 100.0)
-    coarse = rows(lambda k: 104.0 if k == 3 else 102.0, coarse=2)
-    found = from_rows(fine, coarse, scene())
-    assert found.at_the_end["mean_gap_nm"] == pytest.approx(4.0 + 0.5 * 2.5)
-    assert found.means["mean_gap_nm"] == pytest.approx(2.5 + 0.5 * 2.5)
-    assert found.means["friction"] == found.means["mean_gap_nm"]
-    assert "load_on_solids" not in found.means  # there is none on either grid
-    assert "32 nodes in 4 steps for 8" in found.how
-    assert not found.whole  # of a speed and a load that stay
-
-
-def test_a_difference_that_changes_its_sign_tells_by_its_size():
-    fine, coarse = rows(lambda k: 100.0), rows(lambda k: (98.0, 102.0, 98.0, 100.0)[k], coarse=2)
-    found = from_rows(fine, coarse, scene())
-    assert found.at_the_end["mean_gap_nm"] == found.means["mean_gap_nm"] == pytest.approx(1.5 * 1.5)
-
-
-def test_where_no_grid_sees_the_inlet_bands_are_three_times_as_wide():
-    """10.4 ± .4 nm were 12.0 in shorter steps, and on the next finer grid."""
-    fine, coarse = rows(lambda k: 100.0), rows(lambda k: 104.0, coarse=2)
-    found, wider = from_rows(fine, coarse, scene()), from_rows(fine, coarse, scene(), 3.0)
-    assert wider.means["mean_gap_nm"] == pytest.approx(3.0 * found.means["mean_gap_nm"])
-    assert wider.means["max_pressure_GPa"] == found.means["max_pressure_GPa"]
-    assert "3 times as wide but for the pressure: the inlet has less" in wider.how
 
 
 def test_what_grids_tell_too_differently_has_no_band():
@@ -117,12 +62,6 @@ def test_the_mean_load_on_contact_that_opens_has_no_band():
     opens = from_shares(lambda k: float(k < 4), lambda k: float(k < 2))
     assert opens.keys().isdisjoint({"load_on_contact", "load_on_solids"})
     assert from_shares(lambda k: 0.03, lambda k: 0.04)["load_on_contact"] == pytest.approx(0.015)
-
-
-def test_the_largest_pressure_has_what_it_may_be_larger_between_nodes():
-    fine = [each | {"pressure_crest": 0.02} for each in rows(lambda k: 1.0)]
-    found = from_rows(fine, rows(lambda k: 1.1, coarse=2), scene())
-    assert found.at_the_end["max_pressure_GPa"] == pytest.approx(0.02 + 1.5 * 0.1)
 
 
 def test_a_spike_that_three_nodes_do_not_hold_leaves_pressure_and_friction_without_bands():

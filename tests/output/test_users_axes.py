@@ -78,18 +78,6 @@ def back(expected, solved, frame):
     return in_users_axes(solved, frame, Case(expected.config, expected.contact, expected.mesh))
 
 
-def test_fields_scales_and_axes_are_the_users(case):
-    expected, *_ = case
-    found = back(*case)
-    assert found.contact == expected.contact
-    assert (found.mesh.x, found.mesh.y) == (expected.mesh.x, expected.mesh.y)
-    np.testing.assert_array_equal(found.fields.P, expected.fields.P)
-    np.testing.assert_array_equal(found.status, expected.status)
-    np.testing.assert_array_equal(found.heights, expected.heights)
-    np.testing.assert_allclose(found.film, expected.film, rtol=1e-14)
-    assert found.H0 == pytest.approx(expected.H0, rel=1e-14)
-
-
 def test_nodes_sides_and_ranges_are_the_users(case):
     expected, *_ = case
     found = back(*case).result

@@ -1,10 +1,6 @@
-import signal
-import sys
-
 import pytest
 from full_disk import files_of_at_most
 from made_solution import make_solution
-from processes import ended
 
 from mgehl.errors import OutputError
 from mgehl.output.files import write_fields
@@ -29,21 +25,6 @@ def test_an_exception_leaves_the_old_one(path):
     with pytest.raises(FileNotFoundError), whole_file(path):
         pass
     assert path.read_text() == "old" and names(path) == ["fields.h5"]
-
-
-def test_a_kill_leaves_the_old_one_and_the_next_writer_clears_up(path):
-    text = (
-        "import os, signal, sys\n"
-        "from mgehl.output.whole_file import whole_file\n"
-        "with whole_file(sys.argv[1]) as part:\n"
-        "    part.write_text('half')\n"
-        "    os.kill(os.getpid(), signal.SIGKILL)\n"
-    )
-    done = ended([sys.executable, "-c", text, path])
-    assert done.returncode == -signal.SIGKILL
-    assert path.read_text() == "old" and len(names(path)) == 2
-    write_whole(path, "new")
-    assert path.read_text() == "new" and names(path) == ["fields.h5"]
 
 
 def test_what_cannot_be_written_is_one_line(path, monkeypatch):

@@ -13,12 +13,6 @@ from mgehl.output.resolution import Resolution
 from mgehl.output.result import Mean, TimeError
 from mgehl.output.time_words import mean_gap_words
 from mgehl.output.words import FAILED, UNRESOLVED
-from mgehl.solver.inequality import Inequality
-
-
-def test_a_run_shorter_than_a_passage_says_that_it_has_no_means():
-    said = str(make_result(time=in_time(passages=0.5)))
-    assert "\n  no means: the run ends before its first passage\n" in said
 
 
 @pytest.mark.parametrize("shear, is_odd", [(None, False), (299.0, False), (301.0, True)])
@@ -36,11 +30,6 @@ def test_a_mean_is_rounded_as_its_band_is():
         for mean, band in zip(means, bands, strict=True)
     ]
     assert [mean_gap_words(time) for time in times] == ["150 ± 30", "148.9", "148.9"]
-
-
-@pytest.mark.parametrize("crest, is_named", [(None, False), (0.002, False), (0.15, True)])
-def test_a_pressure_spike_that_the_grid_does_not_hold_is_named(crest, is_named):
-    assert ("three nodes do not hold" in str(make_result(pressure_crest=crest))) == is_named
 
 
 @pytest.mark.parametrize("spikes", [0, 3])
@@ -83,16 +72,6 @@ class TestWhereToReadOn:
 
 
 class TestOfALoadedContact:
-    def test_what_most_want_to_know_is_shorter_but_keeps_the_warnings(self):
-        few, whole = (make_result().words(verbose) for verbose in (False, True))
-        assert set(few.splitlines()) < {line.split("; nodes")[0] for line in whole.splitlines()}
-        parts = "CONVERGED", "12.0000 nm", "contact: 3 nodes", "inequality broken at 1 of 8", "5.00 cells"
-        assert all(part in few for part in parts)
-        for part in ("complementarity", "largest gap", "violated at node"):
-            assert part in whole and part not in few
-        none = Inequality(8, 0, 0.0, 1.5, [])
-        assert "inequality" not in make_result(pressure_inequality=none).words(verbose=False)
-
     def test_a_node_that_can_be_neither_is_named_with_both_reasons(self):
         node = {
             "i": 7, "j": 9, "film_gap_nm": -0.6, "contact_pressure": -0.014,
@@ -108,15 +87,3 @@ def test_a_bearing_that_sucks_names_what_would_let_its_film_tear(cavitation):
     kind = {"contact.kind": "wedge", "discretization.cavitation": cavitation, "motion.speed": 2.0}
     found = str(mgehl.solve(mgehl.load(None, kind | opens), MPI.COMM_SELF).result)
     assert ("the film pulls where P is below 0; discretization.cavitation" in found) == (not cavitation)
-
-
-@pytest.mark.parametrize(
-    "more, words",
-    [({}, "5.00 cells, resolved"),
-     ({"inlet_speed": 0.3}, "5.00 cells at the slowest, 300 mm/s, resolved"),
-     ({"inlet_speed": 8.0, "rests": True}, "5.00 cells at 8 m/s, resolved; near rest no grid resolves it"),
-     ({"inlet_speed": 8.0, "rests": True, "nodes_at_rest": 0.5}, "5.00 cells at 8 m/s, resolved; near rest "
-      "no grid resolves it, and the contact has 0.5 cells across there, too few for a verdict")],
-)  # fmt: skip
-def test_the_inlet_of_a_run_in_time_is_that_of_a_speed(more, words):
-    assert f"  inlet: {words}" in str(make_result(resolution=Resolution(5.0, "resolved", **more)))

@@ -19,10 +19,8 @@ from pocket_reference import case as pocket_case
 from mgehl.cli import main
 from mgehl.config import config_from_tables
 from mgehl.discretization.contact_law import BoundaryFilm
-from mgehl.discretization.residual import Linearisation
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.errors import OutputError, Stopped
-from mgehl.multigrid.cliffs import CliffZone
 from mgehl.output.study_directory import StudyRecord
 from mgehl.run import Watch
 from mgehl.run import solve as solve_config
@@ -39,8 +37,6 @@ from mgehl.studies.study import PAPER, Study, merged, papers_grid
 from mgehl.studies.wedge import case as wedge_case
 
 pytestmark = pytest.mark.parallel
-
-MESHES = [{"nodes": 65}, {"nodes": 65, "ny": 33, "coarsest": 65}]
 
 
 @pytest.fixture
@@ -87,38 +83,6 @@ def test_cycles_over_coarse_grids_on_fewer_ranks_solve_as_on_one(solve, paper_co
     H = whole(together.problem.grid, found.state.H)
     scale = np.abs(expected.state.H).max()
     np.testing.assert_allclose(H, expected.state.H, rtol=0.0, atol=1e-9 * scale)
-
-
-@pytest.mark.parametrize("grid", MESHES, ids=["square", "oblong"])
-@pytest.mark.parametrize("ratio", [1.0, 2.0])
-def test_the_convolution_equals_the_serial_one(pair, ratio, grid):
-    together, alone = pair(ratio, **grid)
-    for shared, serial in zip(together.deflections, alone.deflections, strict=True):
-        P = np.where(serial.grid.boundary(), 0.0, random(serial.grid))
-        expected = serial(P).copy()
-        deflection = whole(shared.grid, shared(lines(shared.grid, P)).copy())
-        assert np.max(np.abs(deflection - expected)) < 1e-12 * np.max(np.abs(expected))
-        assert shared.count == 1
-
-
-def test_zones_of_cliffs_equal_the_serial_ones(pair):
-    """Around a cliff that goes through all lines."""
-    both, offsets = [], np.array([(0, 0), (0, -2), (0, -1), (0, 1), (-1, 0), (1, 0)])
-    K = 1.0 / (1.0 + np.add.outer(np.arange(6), np.arange(8)))
-    for hierarchy in pair():
-        grid = hierarchy.grids[-1]
-        A, B = (np.stack([lines(grid, random(grid, 10 * k + n)) for k in range(6)]) for n in (0, 1))
-        masks = [lines(grid, random(grid, 2 + k) > limit) for k, limit in enumerate((2.0, 0.0, -2.0))]
-        found, distributive, free = masks
-        found[:, 7] = True
-        zone = CliffZone(grid, K, 0.25)
-        zone.gather(found, Linearisation(offsets, A, B, None), distributive, free)
-        zone.factor()
-        r, w = (lines(grid, random(grid, 70 + k)) for k in (0, 1))
-        zone.solve(r, w, 1.2)
-        both.append(whole(grid, w) if grid.comm.size > 1 else w)
-    np.testing.assert_allclose(*both, rtol=1e-9, atol=1e-9)
-    assert np.any(both[0] != random(hierarchy.grids[-1], 71))
 
 
 CASES = {"film": (1.0, "film"), "contact": (5e-6, "contact")}

@@ -6,7 +6,6 @@ from mpi4py import MPI
 
 from mgehl.config import load_config
 from mgehl.discretization.status import CAVITATED
-from mgehl.errors import ConfigError
 from mgehl.run import solve
 
 AROUND = 5e7
@@ -63,16 +62,6 @@ def test_the_film_tears_where_nothing_is_left_of_the_pressure_around():
     assert little.fields.P.min() == little.contact.tears_at < 0.0
     assert not np.any(much.fields.status == CAVITATED)
     assert much.contact.tears_at < much.fields.P.min() < little.fields.P.min()
-
-
-@pytest.mark.parametrize("kind", ["wedge", "dry"])
-def test_who_has_no_use_for_it_says_so(kind):
-    if kind == "wedge":
-        with pytest.raises(ConfigError, match=r"contact\.ambient_pressure.*wedge"):
-            load_config(None, ['contact.kind="wedge"', "contact.ambient_pressure=1e5"])
-    else:
-        found = load_config(None, ['discretization.contact_model="dry"', "contact.ambient_pressure=1e5"])
-        assert "contact.ambient_pressure" in found.unused
 
 
 SEAL = {

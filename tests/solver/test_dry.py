@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 from dry_surfaces import surface
-from journals import Kept, Standing
 from scipy.optimize import nnls
 
 from mgehl.discretization.influence import influence_coefficients
@@ -9,17 +8,16 @@ from mgehl.discretization.status import CONTACT
 from mgehl.model.coating import Coating
 from mgehl.model.line import LineContact
 from mgehl.solver.dry import solve_dry
-from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.studies.dry import REFERENCE
 
 TOLERANCE = 1e-8
 
 
-def settle(problem, P=None, max_steps=60, told=lambda step: None, journal=NOTHING_KEPT):
+def settle(problem, P=None, max_steps=60, told=lambda step: None):
     """The `Outcome` of a problem from the smooth contact's pressure, and its convolutions."""
     grid, before = problem.grid, problem.deflection.count
     P = problem.contact.guessed_pressure(grid.X, grid.Y) if P is None else P
-    outcome = solve_dry(problem, P, TOLERANCE, max_steps, told, journal)
+    outcome = solve_dry(problem, P, TOLERANCE, max_steps, told)
     return outcome, problem.deflection.count - before
 
 
@@ -101,25 +99,6 @@ def test_a_public_code_s_numbers(make_problem, paper_contact, name, nodes):
     assert 1e-9 * contact.pressure_scale * state.P.max() == pytest.approx(known.max_pressure, rel=1e-6)
     assert -1e6 * contact.film_scale * state.H0 == pytest.approx(known.approach, abs=1e-6)
     assert convolutions <= 60
-
-
-class TestWay:
-    @pytest.fixture
-    def rough(self, make_problem, paper_contact):
-        return make_problem(paper_contact(surface=surface("rough 200 nm")), nodes=65)
-
-    def test_too_few_steps_are_no_answer(self, rough):
-        outcome, _ = settle(rough, max_steps=2)
-        assert not outcome.converged and len(outcome.cycles) == 2
-        assert "nodes still change between contact and gap after 2 steps" in outcome.reason
-
-    def test_it_goes_on_where_it_stood(self, rough):
-        """From the third step of a run that was stopped: the same steps, to the last bit."""
-        kept = Kept()
-        whole, _ = settle(rough, journal=kept)
-        rest, _ = settle(rough, journal=Standing(kept.records[2]))
-        assert rest.cycles == whole.cycles
-        np.testing.assert_array_equal(rest.state.P, whole.state.P)
 
 
 def coating(contact, modulus, thickness):

@@ -1,11 +1,10 @@
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from mgehl.discretization.mesh import Mesh
-from mgehl.solver.films import at_centre, films_beside, smallest
+from mgehl.solver.films import at_centre, smallest
 
 PLANE = Mesh(21, 17, (-1.9, 1.3), (-1.5, 1.4))
 LINE = Mesh(21, 1, (-1.9, 1.3), (0.0, 0.0))
@@ -43,27 +42,3 @@ def test_on_the_boundary_the_lowest_node_is_the_answer(where):
     H = np.ones((5, 7))
     H[where] = 0.5
     assert smallest(H) == 0.5
-
-
-class TestBesideAFinerGrid:
-    """A bowl too narrow for the coarse grid, its bottom between nodes of both grids."""
-
-    def bowl(self, grid):
-        return 0.2 + 30.0 * np.abs(grid.X - 0.17) + (grid.Y - 0.04) ** 2
-
-    def test_the_smallest_gap_differs_by_what_the_gap_does_around_it(self, tiny_problem):
-        grid = tiny_problem.grid
-        of_finer = self.bowl(grid)
-        coarse = of_finer + 0.01 * (1.0 + grid.X)
-        central, minimum, _, spread = films_beside(tiny_problem, SimpleNamespace(H=coarse), 0.2, of_finer)
-        _, i = np.unravel_index(np.argmin(of_finer), of_finer.shape)
-        assert minimum == pytest.approx(0.2 + 0.01 * (1.0 + grid.X[0, i]), abs=1e-14)
-        assert spread == pytest.approx(0.01 * grid.mesh.dX * 2.0**0.5, rel=1e-12)
-        assert central == at_centre(coarse, grid.mesh)
-
-    @pytest.mark.parametrize("lowest", [(4, 4), (0, 5), (8, 8)])
-    def test_of_the_same_film_it_is_the_same(self, tiny_problem, lowest):
-        """Also where the lowest node is on the boundary."""
-        H = np.ones(tiny_problem.grid.shape)
-        H[lowest] = 0.3
-        assert films_beside(tiny_problem, SimpleNamespace(H=H), 0.2, H)[1:] == (0.2, 0.0, 0.0)

@@ -70,16 +70,6 @@ def test_a_line_grows_with_the_root_of_its_load():
     assert contact.hertz_under(1.0).contact is contact
 
 
-def test_of_a_state_and_its_differences_from_a_finer_grid_s(make_problem, paper_contact):
-    """Differences of either sign do not cancel."""
-    problem = make_problem(paper_contact(1.0), nodes=9, scheme=Scheme())
-    P = np.where(problem.boundary, 0.0, 1.0)
-    state = problem.state(P, 0.5, np.ones(P.shape, dtype=np.int8))
-    assert gaps(problem, state.P, state.H) == gaps_of(problem.grid.mesh, state.P, state.H)
-    sign = np.where((np.arange(9) % 2)[None, :], 1.0, -1.0)
-    assert gaps(problem, state.P, np.abs(state.H - (state.H + 0.25 * sign))) == pytest.approx((0.25, 0.25))
-
-
 @pytest.mark.parametrize("height, crest", [(2.9, 0.95), (1.5, 0.025)])
 def test_a_spike_counts_where_it_may_be_the_largest(make_problem, paper_contact, height, crest):
     """A node that stands out of 1, beside a paraboloid that bends by .025 in a cell and is 4 high."""

@@ -5,24 +5,16 @@ import pytest
 from petsc4py import PETSc
 
 from mgehl.solver.judge import (
-    GO_ON,
-    IDLE_CIRCLE,
     ROUNDED,
     STALLS,
-    SetsChange,
-    Verdict,
-    how_sets_change,
     judge,
     judge_system,
-    judge_work,
-    since_lowered,
 )
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import RESTLESS, Changes, Partition
 from mgehl.solver.position import Position
 from mgehl.solver.problem import DIVERGED
 from mgehl.solver.recipe import IDLE as IDLE_STEPS
-from mgehl.solver.recipe import IDLE_SQUEEZED
 from mgehl.solver.settings import NewtonSettings
 
 TOLERANCE = 1e-8
@@ -80,29 +72,6 @@ def test_the_verdict_on_a_position(partition, make_position, residuals, given, r
     assert found.converged == reason.endswith("sets settled")
 
 
-@pytest.mark.parametrize("rounding, ends", [(1e-8, False), (3e-8, True)])
-def test_what_rounding_leaves_is_settled(partition, make_position, rounding, ends):
-    """A roller with deep waves was solved to 1.2e-10 in 180 steps, and went on for 1e-10 to the last."""
-    idle = make_position(*(ROUNDED + 1) * [2e-8])
-    assert judge(idle, partition, LIMITS, lambda: rounding).converged is ends
-    assert not judge(make_position(*ROUNDED * [2e-8]), partition, LIMITS, lambda: rounding).ends
-
-
-@pytest.mark.parametrize("nodes, spreads", [([4, 8, 8, 12, 10], False), ([4, 8, 8, 12, 10, 11], True)])
-def test_contact_that_spreads_in_so_many_steps_ends_it_if_asked(partition, make_position, nodes, spreads):
-    position = make_position(1e-3)
-    position.cycles = [replace(position.cycles[0], contact_nodes=each) for each in nodes]
-    assert judge(position, partition, replace(LIMITS, spreading_steps=3)).ends == spreads
-    assert not judge(position, partition, LIMITS).ends
-
-
-@pytest.mark.parametrize("work, ends", [(99.9, False), (100.0, True)])
-def test_too_many_convolutions_end_what_would_go_on(work, ends):
-    assert judge_work(GO_ON, work, 100).ends == ends
-    settled = Verdict(True, True, "settled")
-    assert judge_work(settled, work, 100) is settled
-
-
 def test_a_singular_linear_system_ends_a_solve_and_one_that_is_not_solved_does_not(make_position):
     reasons, position = PETSc.KSP.ConvergedReason, make_position(1e-3)
     tried = reasons.CONVERGED_RTOL, reasons.DIVERGED_MAX_IT, reasons.DIVERGED_NANORINF
@@ -114,33 +83,6 @@ def test_sets_that_cycle_name_their_nodes(partition, make_position):
     found = judge(make_position(1e-3), partition, LIMITS)
     assert found.ends and not found.converged and "the sets cycle after 7 steps" in found.reason
     assert [(each.i, each.j, each.pressure) for each in found.contradictions] == [(5, 5, -0.2)]
-
-
-class TestIdleSteps:
-    """A residual that does not fall any more ends a solve before the last of the steps that it may take."""
-
-    def test_a_film_that_the_grid_does_not_hold_is_given_up(self, paper_contact, solve):
-        """For what reason is decided by rounding."""
-        ended = solve(paper_contact(0.012), 65).outcome
-        assert not ended.converged and ended.cycles[-1].step < NewtonSettings().max_steps / 2
-
-    def test_a_film_that_can_be_solved_no_further_is_given_up(self, paper_contact, solve):
-        """Rounding ends the fall of the residual at some 1e-12: of own steps, then of time steps."""
-        ended = solve(paper_contact(1.0), 65, newton={"tolerance": 1e-30}).outcome
-        assert not ended.converged and "did not lower it" in ended.reason
-        assert len(since_lowered(ended)) == IDLE_SQUEEZED and ended.cycles[-1].step < 80
-
-    def test_a_user_may_have_more_or_less_patience(self, paper_contact, solve):
-        ended = solve(paper_contact(1.0), 65, newton={"tolerance": 1e-30, "idle_steps": 3}).outcome
-        assert ended.reason.endswith("the last 3 did not lower it")
-
-
-@pytest.mark.parametrize("length, in_turn", [(1.0, True), (0.9, False)])
-def test_neighbours_change_in_turn_after_whole_steps_in_vain(make_position, length, in_turn):
-    position = make_position(1.0, *int(IDLE_CIRCLE) * [0.95])
-    position.cycles = [replace(each, step_length=length) for each in position.cycles]
-    assert (how_sets_change(position, by_film=True) is SetsChange.IN_TURN) == in_turn
-    assert how_sets_change(position, by_film=False) is SetsChange.AT_ONCE
 
 
 def test_a_step_in_time_need_not_wait_for_sets_that_no_residual_tells_apart(partition, make_position):

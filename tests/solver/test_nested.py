@@ -1,20 +1,14 @@
 """Whole solutions by nested iteration, against numbers that were calculated independently."""
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
 from contacts import contact_of, moes
 
 import mgehl
-from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import CONTACT
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.point import LOAD
 from mgehl.solver.inequality import check_pressure_inequality
-from mgehl.solver.nested import planned_solves
-from mgehl.solver.recipe import MOST_SLOWER
-from mgehl.solver.settings import SolverSettings
 
 MOES_DOMAIN = {"x": (-4.5, 1.5), "y": (-3.0, 3.0)}
 
@@ -26,17 +20,6 @@ def test_full_film_at_one_metre_per_second(solve, paper_contact):
     assert solution.films == (pytest.approx(407.620, rel=1e-5), pytest.approx(130.083, rel=1e-5))
     assert solution.finest_steps <= 15
     assert not np.any(solution.outcome.state.status == CONTACT)
-
-
-@pytest.mark.parametrize("speed, least", [(7.5e-3, 9), (3e-3, 10), (1.0, 2)])
-def test_a_film_is_never_led_far_at_once(paper_contact, speed, least):
-    """Where contact shuts its faces: speeds fall by at most half, and end at the one asked for."""
-    meshes = [Mesh(nodes, nodes, (-1.9, 1.3), (-1.5, 1.5)) for nodes in (17, 33, 65, 129, 257, 513)]
-    solves = list(planned_solves(meshes, paper_contact(speed), SolverSettings()))
-    speeds = [solve.speed for _, solve, _ in solves]
-    assert solves == sorted(solves, key=lambda each: each[0]) and len(solves) >= least
-    assert all(slower >= faster / (MOST_SLOWER * (1.0 + 1e-9)) for faster, slower in pairwise(speeds))
-    assert speeds[-1] == speed and solves[-1][2] == SolverSettings()
 
 
 def test_the_papers_film_takes_few_convolutions():
@@ -103,17 +86,6 @@ def test_dry_limit_of_an_elliptical_contact(solve, paper_contact):
     hertz, mesh = contact.hertz, grid.mesh
     newton = P.sum() * hertz.p_h * (mesh.dX * hertz.a) * (mesh.dY * hertz.b)
     assert newton == pytest.approx(800.0, rel=1e-7)
-
-
-@pytest.mark.parametrize("speed, start", [(1.0, "film"), (5e-6, "contact")])
-def test_the_residual_is_that_of_the_final_pressures_at_their_own_gap(solve, paper_contact, speed, start):
-    """Of a film's start and of a contact's."""
-    solution = solve(paper_contact(speed), 65, start=start)
-    problem, state = solution.problem, solution.outcome.state
-    state.H = problem.gap(state.P, state.H0)
-    true = problem.rms(problem.residual(problem.evaluate(state), state.status))
-    assert true == pytest.approx(solution.outcome.cycles[-1].residual, rel=1e-3)
-    assert true <= 1e-8
 
 
 def test_cavities_and_steps_do_not_take_turns_for_ever(solve, paper_contact):

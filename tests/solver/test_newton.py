@@ -5,17 +5,7 @@ import pytest
 from processes import ended
 
 from mgehl.discretization.status import LUBRICATED
-from mgehl.model.lubricant import Barus
 from mgehl.solver.nested import first_guess
-from mgehl.solver.newton import Newton
-
-
-def test_a_solution_needs_no_step(make_newton):
-    problem, newton = make_newton()
-    first = newton.run(first_guess(problem, "film"))
-    again = newton.run(first.state)
-    assert again.converged
-    assert again.cycles[-1].step == 0
 
 
 def test_the_solution_does_not_depend_on_the_guess(make_newton):
@@ -53,22 +43,6 @@ def test_implicit_time_steps_end_in_the_steady_solution(solve, paper_contact, sp
     np.testing.assert_array_equal(implicit.state.status, steady.state.status)
     ways = ([cycle.residual for cycle in outcome.cycles] for outcome in (steady, implicit))
     assert next(ways)[1:3] != pytest.approx(next(ways)[1:3], rel=1e-3)
-
-
-def test_monitors_of_snes_see_what_the_outcome_says(make_newton):
-    seen = []
-
-    class Watched(Newton):
-        def solve(self, snes, b, x):
-            snes.setMonitor(lambda snes, step, norm: seen.append((step, norm)))
-            super().solve(snes, b, x)
-            seen.append((snes.getIterationNumber(), snes.getFunctionNorm()))
-            assert snes.getConvergedReason() > 0
-
-    problem, newton = make_newton(kind=Watched)
-    cycles = newton.run(first_guess(problem, "film")).cycles
-    told = [(cycle.step, cycle.residual) for cycle in cycles]
-    assert seen == [*told, told[-1]]
 
 
 RAISES_INSIDE = """
@@ -112,18 +86,6 @@ class TestExceptions:
 
     def test_of_a_monitor(self, make_newton):
         self.assert_raised(*make_newton(self.raise_mine))
-
-    def test_of_a_law_that_a_callback_asks(self, make_newton, monkeypatch):
-        problem, newton = make_newton()
-        guess, calls, log_viscosity = first_guess(problem, "film"), [], Barus.log_viscosity
-
-        def later(*arguments):
-            calls.append(1)
-            return self.raise_mine() if len(calls) > 3 else log_viscosity(*arguments)
-
-        monkeypatch.setattr(Barus, "log_viscosity", later)
-        with pytest.raises(self.Mine, match="^as it was$"):
-            newton.run(guess)
 
     def test_of_a_product_inside_the_linear_solver(self):
         """In a process of its own, which would die of it."""

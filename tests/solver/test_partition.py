@@ -6,8 +6,8 @@ import pytest
 import mgehl
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, UnifiedEquations
 from mgehl.discretization.scheme import Scheme
-from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
-from mgehl.solver.partition import RESTLESS, Changes, Contradiction, Partition
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.solver.partition import Changes, Partition
 
 THRESHOLD = 1e-3
 NODE = (4, 4)
@@ -125,37 +125,6 @@ def test_the_fluid_has_a_pressure_of_its_own_in_contact_alone(make_partition, st
     np.testing.assert_array_equal(state.p, expected)
 
 
-class TestRestlessNodes:
-    """Nodes that turn between film and contact, which no grid of theirs will settle."""
-
-    @pytest.fixture
-    def turn(self, state):
-        """Function that closes a node and tears it open again: two turns. Without `pressure` it closes."""
-
-        def turn(partition, node=NODE, gap=-0.02, pressure=-0.1, times=1):
-            for _ in range(times):
-                partition.cut_tension(state, Changes())  # a step in which nothing is torn
-                state.status[node], state.H[node] = LUBRICATED, gap
-                changed_by(partition.enter_contact, state, entered=1)
-                state.H[node] = 1.0
-                if pressure:
-                    state.P[node] = pressure
-                    partition.cut_tension(state, Changes())
-
-        return turn
-
-    def test_a_contradiction_says_where_and_by_how_much(self, make_partition, state, turn):
-        """Of gap and pressure the last count; the neighbours are west, east, before and after."""
-        partition, node = make_partition(), (3, 5)
-        turn(partition, node, times=RESTLESS // 2 - 1)
-        turn(partition, node, gap=-0.03, pressure=-0.2)
-        state.status[3, 4], state.status[3, 6] = CONTACT, CAVITATED
-        state.status[2, 5], state.status[4, 5] = BOUNDARY, LUBRICATED
-        assert partition.contradictions(state.status) == [
-            Contradiction(6, 4, -0.03, -0.2, ("contact", "cavitated", "boundary", "lubricated"))
-        ]
-
-
 class TestContinuousContact:
     """Contact that keeps a film and leaves its faces open."""
 
@@ -192,27 +161,6 @@ class TestContinuousContact:
             CONTACT, LUBRICATED if opens else CONTACT, CONTACT, CONTACT,
         ]  # fmt: skip
 
-    @pytest.mark.parametrize("part, opens", [(0.9, True), (1.1, False)])
-    def test_what_overlaps_opens_where_the_fluid_lifts_it_far_enough(
-        self, partition, tiny_problem, pressed, part, opens
-    ):
-        """The missing gap in parts of what p - P gives the node."""
-        pressed.p[NODE] = pressed.P[NODE] + 0.1
-        pressed.H[NODE] -= part * 0.1 * tiny_problem.K00
-        changed_by(partition.open_contact, pressed, released=int(opens))
-        assert (pressed.status[NODE] == LUBRICATED) == opens
-
-    @pytest.mark.parametrize("part, stays", [(0.9, False), (1.1, True)])
-    def test_what_overlaps_is_torn_open_by_tension_alone(
-        self, partition, tiny_problem, pressed, part, stays
-    ):
-        """The overlap in parts of what the tension gives the node: first guesses overlap by far more."""
-        pressed.P[NODE], pressed.p[NODE] = -0.1, 0.0
-        partition.cut_tension(pressed, Changes())
-        pressed.H[NODE] -= part * 0.1 * tiny_problem.K00
-        changed_by(partition.enter_contact, pressed, entered=int(stays))
-        assert (pressed.status[NODE] == CONTACT) == stays and pressed.P[NODE] == 0.0
-
     def test_what_fluid_presses_under_is_lifted_and_not_torn_apart(self, partition, pressed):
         """It opened empty, was closed by the films beside it, and so on: a polymer was not found."""
         pressed.P[NODE], pressed.p[NODE] = -0.1, 0.1
@@ -228,25 +176,6 @@ class TestContinuousContact:
         changed_by(partition.enter_contact, pressed)
         partition.cut_tension(pressed, Changes())
         changed_by(partition.enter_contact, pressed, entered=1)
-
-
-def test_a_node_that_its_flow_would_lift_is_not_solved_apart(paper_contact, solve):
-    outcome = solve(paper_contact(5e-6), 257, "contact", newton={"max_steps": 15}, mean="geometric").outcome
-    assert outcome.converged and outcome.cycles[-1].step <= 9
-
-
-@pytest.mark.parametrize("in_turn, stays", [(True, True), (False, False)])
-def test_what_is_torn_stays_a_cavity_for_a_step_where_sets_change_in_turn(
-    make_partition, state, in_turn, stays
-):
-    """A soft line's last film node was filled and torn by each of 400 steps, which led nowhere."""
-    partition = make_partition()
-    state.P[NODE] = -0.1
-    changed_by(partial(partition.cut_tension, in_turn=in_turn), state, cavitated=1)
-    state.filling[NODE] = 1.2
-    changed_by(partial(partition.fill, in_turn=in_turn), state, filled=0 if stays else 1)
-    changed_by(partial(partition.cut_tension, in_turn=in_turn), state)
-    changed_by(partial(partition.fill, in_turn=in_turn), state, filled=1 if stays else 0)
 
 
 @pytest.mark.parametrize("in_turn", [False, True])

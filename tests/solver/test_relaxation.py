@@ -1,5 +1,3 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -13,12 +11,6 @@ from mgehl.solver.settings import SolverSettings
 from mgehl.solver.task import Task
 
 
-@pytest.fixture
-def problem(make_problem):
-    """9 x 9 nodes at 1 m/s; the film may be in tension, so that nothing is cut."""
-    return make_problem(nodes=9, scheme=Scheme(cavitation=False))
-
-
 def rough(problem):
     """All film: random low pressures in a random gap in which both kinds of flow matter."""
     rng = np.random.default_rng(3)
@@ -26,43 +18,6 @@ def rough(problem):
     H = 0.15 + 0.1 * rng.random(problem.grid.shape)
     status = np.where(problem.boundary, BOUNDARY, LUBRICATED).astype(np.int8)
     return State(P, 0.0, H, status)
-
-
-WHOLE_WAY = RelaxationSettings(omega=1.0, contact_share=1.0, max_sweeps=1, load_every=1000)
-"""One sweep that takes every node all of the way to its new pressure."""
-
-
-def swept(problem, state, settings=WHOLE_WAY):
-    """The state after the sweeps from `state`, which is not changed."""
-    return relax(problem, state.copy(), settings, lambda sweep: None).state
-
-
-def test_film_goes_omega_of_the_way_and_contact_its_share_of_that(problem):
-    """P_new = P + omega (P_new - P): the sign of [Liu eq. 53] mended."""
-    state = rough(problem)
-    state.H[4, 4] = -0.01  # overlap: the sweep takes it for contact
-    whole = swept(problem, state).P - state.P
-    part = swept(problem, state, replace(WHOLE_WAY, omega=0.2, contact_share=0.25)).P - state.P
-    factor = np.where(state.H > 0.0, 0.2, 0.05)
-    np.testing.assert_allclose(part, factor * whole, rtol=1e-10, atol=1e-15)
-
-
-def test_tension_is_cut_where_the_film_may_tear(problem, make_problem):
-    state = rough(problem)
-    state.P *= 0.01
-    free = swept(problem, state).P
-    assert free.min() < 0.0
-    np.testing.assert_allclose(swept(make_problem(nodes=9), state).P, np.maximum(free, 0.0), atol=1e-15)
-
-
-@pytest.mark.parametrize("every, sweeps, corrected", [(1, 1, True), (2, 1, False), (2, 2, True)])
-def test_bodies_approach_while_the_load_is_too_small(problem, every, sweeps, corrected):
-    """[Liu eq. 54]: H0 - omega_w (2 pi/3 - sum P dX dY), every few sweeps."""
-    settings = replace(WHOLE_WAY, omega=1e-3, load_factor=0.25, load_every=every, max_sweeps=sweeps)
-    new, mesh = swept(problem, rough(problem), settings), problem.grid.mesh
-    missing = 2.0 * np.pi / 3.0 - mesh.dX * mesh.dY * new.P.sum()
-    assert missing > 0.0
-    assert new.H0 == pytest.approx(-0.25 * missing if corrected else 0.0, rel=1e-12)
 
 
 class TestRuns:

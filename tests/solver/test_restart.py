@@ -8,15 +8,10 @@ from mpi4py import MPI
 import mgehl
 from mgehl import run
 from mgehl.config import config_from_tables
-from mgehl.discretization.status import CAVITATED, CONTACT
 from mgehl.errors import UserError
-from mgehl.grid.hierarchy import Hierarchy
-from mgehl.kinds import case_of, contact_from, mesh_from
+from mgehl.kinds import case_of, contact_from
 from mgehl.model.frame import Frame
-from mgehl.solver import restart
-from mgehl.solver.from_config import settings_from
-from mgehl.solver.problem import ContactProblem
-from mgehl.solver.restart import Forecast, check_start, differing_keys, interpolated
+from mgehl.solver.restart import Forecast, check_start, differing_keys
 from mgehl.studies.study import PAPER, PAPERS_DOMAIN, merged, papers_grid
 
 FILM = {"motion": {"speed": 0.5}, "grid": papers_grid(65), "solver": {"start": "film"}}
@@ -31,55 +26,6 @@ DRY = PAPER | {"motion": {"speed": 5e-6}, "grid": papers_grid(65), "solver": {"s
 @pytest.fixture(scope="module")
 def film():
     return solved(FILM)
-
-
-@pytest.fixture
-def onto(in_the_end):
-    """Function: the fields of a solution on the problem of other tables, and that problem."""
-
-    def make(start, *tables):
-        config = config_from_tables(merged(*tables))
-        contact = contact_from(config)
-        made = Hierarchy(mesh_from(config, contact), 33, contact.kernel, MPI.COMM_SELF)
-        grid, deflection = in_the_end(Hierarchy.destroy, made).grids[-1], made.deflections[-1]
-        problem = ContactProblem(grid, deflection, contact, settings_from(config, contact).scheme)
-        return interpolated(problem, start, Frame()), problem
-
-    return make
-
-
-class TestInterpolated:
-    def test_onto_a_finer_grid_the_common_nodes_keep_their_pressure(self, film, onto):
-        state, problem = onto(film, FILM, {"grid": papers_grid(129)})
-        assert state.P.shape == (129, 129)
-        np.testing.assert_allclose(state.P[::2, ::2], film.fields.P, rtol=0.0, atol=1e-13)
-        between = 0.5 * (film.fields.P[:, 1:] + film.fields.P[:, :-1])
-        np.testing.assert_allclose(state.P[::2, 1::2], between, rtol=0.0, atol=1e-13)
-        np.testing.assert_allclose(state.H, problem.gap(state.P, film.H0), rtol=0.0, atol=1e-12)
-        torn = film.fields.status == CAVITATED
-        assert torn.any() and (state.status[::2, ::2][torn] == CAVITATED).all()
-
-    def test_outside_of_what_was_solved_there_is_no_pressure(self, film, onto):
-        state, problem = onto(film, FILM, {"grid": {"x": [-4.0, 2.0]}})
-        x = problem.grid.mesh.X
-        outside = (x < film.mesh.X[0]) | (x > film.mesh.X[-1])
-        assert outside.sum() > 20 and not state.P[:, outside].any()
-        assert (state.filling[:, outside] == 1.0).all()
-        assert state.P.max() == pytest.approx(film.fields.P.max(), rel=0.05)
-
-    def test_contact_stays_contact(self, onto):
-        dry = solved(DRY)
-        state, problem = onto(dry, DRY, {"grid": papers_grid(129)})
-        share = np.count_nonzero(state.status == CONTACT) / np.count_nonzero(dry.fields.status == CONTACT)
-        assert share == pytest.approx(4.0, rel=0.03)
-        assert not (state.status[problem.boundary] == CONTACT).any()
-
-    def test_under_another_load_the_film_is_as_thick(self, film, onto):
-        """The bodies come as much closer as the dry ones do."""
-        state, problem = onto(film, FILM, {"contact": {"load": 2.0 * film.contact.load}})
-        i, j = problem.grid.mesh.centre
-        central = state.H[j, i] * problem.contact.film_scale
-        assert 1e9 * central == pytest.approx(film.result.central_film_nm, rel=0.1)
 
 
 ROUGH = {"surface.kind": "waviness", "surface.amplitude": "100 nm", "surface.wavelength_x": "40 um"}
@@ -132,16 +78,6 @@ class TestSolveFrom:
         assert started.result.converged
         np.testing.assert_allclose(started.fields.H, plain.fields.H, rtol=0.0, atol=1e-6)
         assert started.rows[-1]["speed_mm_s"] == 4000.0
-
-    def test_what_no_start_leads_to_in_its_work_is_found_from_nothing(self, monkeypatch):
-        """A fiftieth of the speed, with so little work that the way there is given up."""
-        monkeypatch.setattr(restart, "OF_A_START", 0.005)
-        film = {"solver.start": "film", "solver.error": False, "discretization.face_mobility": "linear-gap"}
-        ball = mgehl.load().with_(film | {"motion.speed": 0.5, "grid.nodes": 65})
-        slow = ball.with_({"motion.speed": 0.01})
-        far, plain = mgehl.solve(slow, start=mgehl.solve(ball)), mgehl.solve(slow)
-        assert far.result.converged and far.result.recipe["begins"] == plain.result.recipe["begins"]
-        np.testing.assert_array_equal(far.fields.H, plain.fields.H)
 
     def test_a_forecast_from_afar_begins_from_nothing(self):
         """A twentieth of the speed: by the same steps as without a neighbour."""

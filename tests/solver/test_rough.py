@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
-from journals import Kept, Standing
 
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.model.surface import Surface
 from mgehl.solver.inequality import check_interface
-from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.settings import NewtonSettings, SolverSettings
 from mgehl.solver.task import Task
@@ -32,7 +30,7 @@ def solve_rough(paper_contact, make_hierarchy):
     """Function: problem and outcome of a wavy ball, by its amplitude, speed and boundary film in m."""
 
     def run(
-        amplitude, speed, boundary_film=2e-11, start="film", journal=NOTHING_KEPT, couette="1B", nodes=65,
+        amplitude, speed, boundary_film=2e-11, start="film", couette="1B", nodes=65,
         tolerance=1e-8,
     ):  # fmt: skip
         contact = paper_contact(speed, load=100.0, surface=Waves(amplitude, 2.05e-4))
@@ -41,7 +39,7 @@ def solve_rough(paper_contact, make_hierarchy):
         scheme = Scheme(couette, "linear-gap", contact_law=law)
         newton = NewtonSettings(tolerance=tolerance)
         settings = SolverSettings(scheme=scheme, newton=newton, start=start)
-        return nested_iteration(Task(hierarchy, contact, settings, journal=journal))
+        return nested_iteration(Task(hierarchy, contact, settings))
 
     return run
 
@@ -114,14 +112,3 @@ def test_contact_carries_much_of_the_load(solve_rough, start, speed, steps, shar
     assert problem.load(np.where(state.status == CONTACT, state.P, 0.0)) > share * problem.load(state.P)
     assert complementarity_error(problem, state, problem.evaluate(state)) < 1e-7
     assert check_interface(problem, state).violations == 0
-
-
-def test_nearby_nodes_at_once_settle_and_a_run_that_was_stopped_goes_on_the_same(solve_rough):
-    """Waves of 200 nm at a smooth film of .5 nm; a linear system may take but few iterations by lines."""
-    kept = Kept()
-    _, whole = solve_rough(2e-7, 4e-5, journal=kept)
-    assert whole.converged and len(kept.records) > 15
-    for record in kept.records[5::5]:
-        _, rest = solve_rough(2e-7, 4e-5, journal=Standing(record))
-        assert rest.cycles == whole.cycles
-        np.testing.assert_array_equal(rest.state.P, whole.state.P)

@@ -50,14 +50,6 @@ def test_a_last_digit_of_the_pressures_changes_the_residual_by_what_rounding_may
     hierarchy.destroy()
 
 
-def test_each_linear_system_is_solved_at_once():
-    solution = solved(ROLLER)
-    result, rows = solution.result, solution.rows
-    assert result.converged and result.work.steps < 60
-    assert {row["linear_iterations"] for row in rows[1:]} <= {1, 2}, "2 where a filling is unknown"
-    assert {row["speed_mm_s"] for row in rows} == {50.0}, "from the dry contact, without a walk"
-
-
 def test_above_the_largest_direct_solve_the_grids_of_the_cycle_lead_to_the_same(monkeypatch):
     at_once = solved(ROLLER).result
     monkeypatch.setattr(recipe, "DIRECT", 65)

@@ -1,16 +1,7 @@
 from mgehl.config import config_from_tables
-from mgehl.discretization.contact_law import BoundaryFilm, UnifiedEquations
-from mgehl.discretization.scheme import Scheme
+from mgehl.discretization.contact_law import UnifiedEquations
 from mgehl.kinds import case_of
 from mgehl.solver.from_config import set_up
-from mgehl.solver.settings import SolverSettings
-
-
-def test_what_is_not_configured_is_the_default():
-    """All but the schemes, and the film threshold: a length there and a part of the gap's unit here."""
-    config = config_from_tables({"discretization": {"film_threshold": 0.0}})
-    scheme = Scheme("3B", "linear-gap", contact_law=BoundaryFilm(0.0))
-    assert set_up(case_of(config)).settings == SolverSettings(scheme=scheme)
 
 
 def test_keys_reach_the_records_that_the_solver_is_given():

@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 from mpi4py import MPI
-from told import rows_of
 
-from mgehl.cli import main
 from mgehl.model.conditions import Conditions
 from mgehl.output.study_directory import StudyRecord
 from mgehl.studies import venner_laws, waviness
@@ -42,15 +40,3 @@ def test_waves_are_flattened_but_for_what_the_density_gives_way(tmp_path):
     C = film * 220e9 * (2.0 * np.pi / b) / 4.0 * (slope / density)[0]
     assert found[1.0].wave == pytest.approx(C / (1.0 + C), rel=0.1)
     assert found[0.5].wave == pytest.approx(2.0 * C / (1.0 + 2.0 * C), rel=0.1)
-
-
-def test_the_table(tmp_path, monkeypatch):
-    """On a tiny grid."""
-    monkeypatch.setattr(waviness, "GRIDS", (("2B", "arithmetic", 257),))
-    assert main(["study", "waviness", "--quiet", "--out", str(tmp_path / "here")]) == 0
-    rows = rows_of(tmp_path / "here" / "line.csv")
-    assert [row["wavelength/b"] for row in rows] == ["1", "0.5"] * 2
-    for row in rows:
-        apart = float(row["change of film/A"]) / float(row["reference"]) - 1.0
-        assert row["converged"] == "yes"
-        assert float(row["apart %"]) == pytest.approx(100.0 * apart, abs=0.2)

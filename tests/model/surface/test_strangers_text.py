@@ -23,6 +23,7 @@ TEXTS = {
     "decimal commas between blanks": matrix("  ", ","),
     "quoted": matrix(";", ",", '"{:g}"'),
     "quoted decimal commas between commas": matrix(",", ",", '"{:g}"'),
+    "decimal commas between commas and blanks": '"of a lens", "a"\n' + matrix(", ", ",", "{:.4f}"),
     "quoted between blanks": '"z"\n' + matrix(" ", ",", '"{:g}"'),
     "separators at the ends": matrix(",").replace("\n", ",\n"),
     "indented by tabs": "\t" + matrix("\t").strip().replace("\n", "\n\t"),
@@ -95,17 +96,18 @@ def test_a_grid_of_maps_begins_in_the_north_and_tells_its_holes(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("heading", "columns"),
-    [("No.;X [mm];Z [um]", "kxz"), ("Z [um];X [mm]", "zx"), ("x (mm);height (um);quality", "xzk")],
+    ("heading", "columns", "units"),
+    [("No.;X [mm];Z [um]", "kxz", (1e-3, 1e-6)), ("Z [um];X [mm]", "zx", (1e-3, 1e-6)),
+     ("x (mm);height (um);quality", "xzk", (1e-3, 1e-6)), ("X (in);Z (uin)", "xz", (25.4e-3, 25.4e-9))],
 )  # fmt: skip
-def test_columns_of_a_profile_are_those_of_their_names(tmp_path, heading, columns):
+def test_columns_of_a_profile_are_those_of_their_names(tmp_path, heading, columns, units):
     rows = [{"k": k, "x": 0.001 * k, "z": k % 3} for k in range(9)]
     lines = (";".join(f"{row[name]:g}" for name in columns) for row in rows)
     (tmp_path / "z.csv").write_text("\n".join([heading, *lines]))
     found = read_map(tmp_path / "z.csv")
     np.testing.assert_array_equal(found.heights[0], [k % 3 for k in range(9)])
     assert found.dx == pytest.approx(0.001)
-    assert (found.position_unit, found.height_unit) == (1e-3, 1e-6)
+    assert (found.position_unit, found.height_unit) == units
 
 
 @pytest.mark.parametrize(
@@ -127,14 +129,6 @@ def test_words_of_a_comment_are_no_names(tmp_path):
     points = "\n".join(f"{i} {j} {Z[j, i]}" for j in range(4) for i in range(4))
     (tmp_path / "z.txt").write_text("# Height along x\n" + points)
     np.testing.assert_array_equal(read_map(tmp_path / "z.txt").heights, Z)
-
-
-def test_heights_in_microinches(tmp_path):
-    (tmp_path / "z.csv").write_text(
-        "X (in),Z (uin)\n" + "".join(f"{0.001 * k:.3f},{k % 3}\n" for k in range(9))
-    )
-    found = read_map(tmp_path / "z.csv")
-    assert (found.position_unit, found.height_unit) == (25.4e-3, 25.4e-9)
 
 
 @pytest.mark.parametrize("form", ["{:.5g}", "{:.4e}"])
@@ -265,21 +259,6 @@ def test_few_heights_that_count_are_heights(tmp_path):
     few = np.vstack([np.arange(5.0), NOISE[:4, :5]])
     np.savetxt(tmp_path / "z.txt", few)
     np.testing.assert_array_equal(read_map(tmp_path / "z.txt").heights, few)
-
-
-def test_columns_of_points_are_what_their_names_say(tmp_path):
-    y, x = np.meshgrid(3.0 * np.arange(6), 2.0 * np.arange(9), indexing="ij")
-    table = np.column_stack([y.ravel(), x.ravel(), NOISE.ravel()])
-    np.savetxt(tmp_path / "z.csv", table, delimiter=",", header="y [um],x [um],z [nm]", comments="")
-    found = read_map(tmp_path / "z.csv")
-    np.testing.assert_array_equal(found.heights, NOISE)
-    assert (found.dx, found.dy, found.height_unit, found.position_unit) == (2.0, 3.0, 1e-9, 1e-6)
-
-
-def test_decimal_commas_between_commas_and_blanks(tmp_path):
-    text = "\n".join(", ".join(f"{z:.3f}".replace(".", ",") for z in row) for row in NOISE)
-    (tmp_path / "z.csv").write_text(f'"of a lens", "a"\n{text}')
-    np.testing.assert_array_equal(read_map(tmp_path / "z.csv").heights, NOISE)
 
 
 @pytest.mark.parametrize("shape", [(1, 54), (54, 1)])

@@ -1,7 +1,5 @@
 import numpy as np
-import pytest
 
-from mgehl.errors import UserError
 from mgehl.output.pictures.comparison import compare_lines
 
 
@@ -26,9 +24,3 @@ def test_lines_of_all_runs_in_GPa_and_nm(make_solution, drawn, check_texts):
         figure, "coarse", "fine", "Hertz", "pressure, GPa", "film thickness, nm", "X = x/a, a = 0.4108 mm",
         "centre lines, 0.005 mm/s, 800 N, 2 runs",
     )  # fmt: skip
-
-
-def test_runs_of_different_kinds_are_not_compared(make_solution, make_line, make_wedge, drawn):
-    for other in (make_line(), make_wedge()):
-        with pytest.raises(UserError, match="different kinds of contact"):
-            drawn(compare_lines, [make_solution(), other], "ab")

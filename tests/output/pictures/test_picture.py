@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
-from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.status import CONTACT, LUBRICATED
 from mgehl.output.pictures import style
 from mgehl.output.pictures.figures import figures, run_picture
-from mgehl.output.pictures.plane import Blocks
 
 
 def image_of(solution):
@@ -48,15 +46,3 @@ def test_of_a_line_contact_and_a_wedge(kind, request):
 def test_a_line_contact_and_a_wedge_have_what_makes_sense(make_line, make_wedge):
     assert [picture.name for picture in figures(make_line())] == ["lines", "history"]
     assert [picture.name for picture in figures(make_wedge())] == ["lines", "pressure", "status", "history"]
-
-
-def test_blocks_of_three_by_three_and_what_is_left():
-    """Seven and five nodes in blocks of three: the last hold one and two, and reach beyond."""
-    mesh = Mesh(7, 5, (-1.0, 1.0), (0.0, 3.0))
-    each, values = Blocks(mesh.X, mesh.Y, 3), np.arange(35).reshape(5, 7)
-    np.testing.assert_array_equal(each.least(values), [[0, 3, 6], [21, 24, 27]])
-    np.testing.assert_array_equal(each.largest(values), [[16, 19, 20], [30, 33, 34]])
-    np.testing.assert_allclose(each.X, [mesh.X[1], mesh.X[4], mesh.X[6]], atol=1e-15)
-    np.testing.assert_allclose(each.Y, [mesh.Y[1], 0.5 * (mesh.Y[3] + mesh.Y[4])], atol=1e-15)
-    cell = 2.0 / 6
-    assert each.extent[:2] == pytest.approx((-1.0 - cell / 2, -1.0 - cell / 2 + 9 * cell))

@@ -168,17 +168,6 @@ def test_a_run_in_time_tells_its_means_and_that_other_numbers_are_those_at_its_e
     assert "imbalance of the flux" not in page.rows(CHECKS)
 
 
-@pytest.mark.parametrize("doubt, mark", [({}, ""), ({"converged": False}, ", in doubt")])
-def test_what_pictures_say_in_words_of_a_run_in_time(film_run, monkeypatch, doubt, mark):
-    """That of the steps began "T the en: "."""
-    drawn = [picture(f"{name}.", "", b"", "image/png", (1, 1), name) for name in ("time", "film")]
-    monkeypatch.setattr("mgehl.output.report.run_report.pictures", lambda solution: drawn)
-    page = Reader(report(changed(film_run, time=in_time(), **doubt), "my-run"))
-    took, film = [value for _, name, value in page.attributes if name == "alt"]
-    assert took == f"time. It took {len(film_run.rows)} steps."
-    assert film.startswith(f"film. At the end{mark}: The film is ")
-
-
 def sheared(temperatures):
     """Friction of a body that another slides on."""
     return FrictionResult(
