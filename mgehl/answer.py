@@ -58,7 +58,7 @@ class Solution(Solved):
         return heading.replace("\u00a0", " ")
 
     def to_xarray(self) -> "xarray.Dataset":
-        """Fields in SI units over x and y, the numbers of a sweep as scalars, the configuration as an attribute.
+        """Fields in SI units over x and y, numbers as a sweep has them, the configuration as an attribute.
 
         What `mgehl export --to nc` writes, in memory. Raises UserError where xarray is not installed.
         """

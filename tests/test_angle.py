@@ -67,7 +67,6 @@ class TestMirrored:
         assert_same(found, expected, lambda array: np.flip(array, axis))
 
     def test_about_the_diagonal(self):
-        """60 degrees on a ball: what belonged to x belongs to y."""
         assert_same(solved(FILM, at(60)), solved(FILM, at(30)), np.transpose)
 
 

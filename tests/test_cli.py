@@ -16,7 +16,6 @@ pytestmark = pytest.mark.usefixtures("empty_directory")
 
 
 def mgehl(*arguments):
-    """The command in a process of its own."""
     return ended([*MGEHL, *arguments])
 
 

@@ -342,7 +342,6 @@ class TestPipes:
     """What a shell makes of <(...) is a configuration; a pipe into which nobody writes is none."""
 
     def check(self, tmp_path, command):
-        """What `mgehl check` says of the output of a command."""
         return ended(["bash", "-c", f"exec {shlex.join(MGEHL)} check <({command})"], cwd=tmp_path)
 
     def test_what_comes_out_of_one(self, tmp_path):

@@ -18,7 +18,6 @@ def run(directory, *more, **settings):
 
 @pytest.fixture(scope="module")
 def rough(tmp_path_factory):
-    """Directory of a rough ball's run, with pictures and page."""
     directory = tmp_path_factory.mktemp("dry") / "rough"
     assert run(directory, **{"contact.surface": SURFACE}) == 0
     assert main(["plot", str(directory), "--format", "png"]) == 0

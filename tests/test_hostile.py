@@ -24,7 +24,6 @@ def finished(tmp_path_factory):
 
 
 def process(*words, before="", **variables):
-    """mgehl in a process of its own, after words of the shell."""
     done = ended(["bash", "-c", f'{before} "$@"', "-", *MGEHL, *words], **variables)
     return done.returncode, done.stderr.splitlines()
 

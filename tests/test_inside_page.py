@@ -12,7 +12,6 @@ PLACES = sorted(set(re.findall(rf"`((?:{LAYERS})(?:\.\w+)+)`", PAGE)))
 
 
 def found(dotted):
-    """The module, class or function of a dotted name."""
     parts = dotted.split(".")
     for length in range(len(parts), 0, -1):
         try:

@@ -11,7 +11,6 @@ from mgehl.kinds import check_contact, contact_from
 
 
 def error_of(settings, path=os.devnull):
-    """What is said of settings that can be read."""
     config = load_config(path, settings)
     return refusal(lambda: check_contact(config, contact_from(config)), error=ConfigError)
 

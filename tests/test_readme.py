@@ -35,7 +35,6 @@ def links():
 
 
 def anchors(text):
-    """What the headings of a page are linked by."""
     heads = re.findall(r"^#+ (.*)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), flags=re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
 
@@ -96,7 +95,6 @@ def shell_lines(text):
 
 
 def is_only_read(line):
-    """Whether tests of their own run such a command."""
     return any(word in line for word in (" study ", " sweep ", "runs/sweep-", " bench ", " pytest"))
 
 

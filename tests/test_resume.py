@@ -54,7 +54,6 @@ def uninterrupted():
 
 
 def configuration(words):
-    """Of a command line: a file, or the usual one, and settings."""
     path, words = (None, words) if words[0] == "--set" else (words[0], words[1:])
     return load_config(path, words[1::2])
 
@@ -64,7 +63,6 @@ def settled(config):
 
 
 def start(arguments, ranks=1):
-    """A process of `mgehl run`, without MPI variables of this one."""
     words = [*MGEHL, "run", *arguments]
     if ranks > 1:
         words = ["mpiexec", "-n", str(ranks), *words]
@@ -303,7 +301,6 @@ class TestFullDisk:
 
     @pytest.fixture
     def disk(self, tmp_path):
-        """Function that makes a disk of a size, or gives it another."""
         path = tmp_path / "disk"
         path.mkdir()
         options = ["-t", "tmpfs", "-o"]

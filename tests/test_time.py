@@ -84,7 +84,6 @@ def test_a_film_that_shear_thins_stays_thin():
 
 
 def test_friction_at_the_end_is_that_of_its_speed_and_load(course):
-    """A run shorter than a passage had none in its result."""
     speed, load = course((0.0, 0.09), (0.1 * UNIT, 0.03)), 15.0
     slower = solved(**THINNED, motion__speed=speed, time__end=0.1 * UNIT)
     (found, row), sliding = (slower.summary.friction, slower.rows[-1]), 0.5 * 0.03

@@ -29,8 +29,6 @@ def runs(tmp_path_factory):
 
 @pytest.fixture
 def run(runs, tmp_path):
-    """Function that copies such a directory, to be spoilt."""
-
     def copy(kind):
         return Path(shutil.copytree(runs(kind), tmp_path / "run"))
 

@@ -14,7 +14,6 @@ SMALL = ["grid.nodes=65", "motion.speed=0.5 m/s", "solver.start=film"]
 
 @pytest.fixture(scope="module")
 def directory(tmp_path_factory):
-    """A directory with a small run in runs/try, which examples may name."""
     here = tmp_path_factory.mktemp("examples")
     settings = [f"--set={setting}" for setting in SMALL]
     assert main(["run", *settings, "--out", str(here / "runs" / "try"), "--quiet"]) == 0
@@ -37,7 +36,6 @@ def example(name):
 @pytest.mark.parametrize("columns", [80, 120])
 @pytest.mark.parametrize("name", COMMANDS)
 def test_help_ends_with_the_example_as_it_is_to_be_typed(name, columns, capsys, monkeypatch):
-    """Broken where a shell goes on, so that no line is too long."""
     monkeypatch.setenv("COLUMNS", str(columns))
     with pytest.raises(SystemExit) as stop:
         main([name, "--help"])

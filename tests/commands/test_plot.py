@@ -8,7 +8,6 @@ RUN = ["run", "--quiet", "--set", "grid.nodes=65", "--out"]
 
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory):
-    """Directory of two runs of a dry contact and one of a wedge."""
     directory = tmp_path_factory.mktemp("runs")
     assert main([*RUN, str(directory / "dry")]) == 0
     assert main([*RUN, str(directory / "light"), "--set", "contact.load=400 N"]) == 0
@@ -19,7 +18,6 @@ def runs(tmp_path_factory):
 
 @pytest.fixture
 def words(runs, empty_directory):
-    """Function: those that plot runs by their names."""
     return lambda names, *options: ["plot", *(str(runs / name) for name in names.split()), *options]
 
 

@@ -50,7 +50,6 @@ def test_another_file_is_replaced_only_with_force(here, refused):
 
 
 def test_somebodys_tables_are_no_study(here, refused):
-    """They were a study whose table was cut off."""
     (here / "race.csv").write_text("x [um];y [um];z [nm]\n0,0;0,0;-87,6\n")
     assert ".: is no run directory: it has no fields.h5" in refused("report", ".")
 

@@ -14,7 +14,6 @@ DRY = ["study", "dry", "--nodes", "65", "--quiet", "--out"]
 
 @pytest.fixture(autouse=True)
 def small(empty_directory, monkeypatch):
-    """A study of a smooth contact alone."""
     monkeypatch.setattr(dry, "SURFACES", {"smooth": None})
 
 

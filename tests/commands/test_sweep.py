@@ -106,7 +106,6 @@ def test_shear_that_no_oil_bears_is_told_of_a_sweep_too(tmp_path, capsys):
 
 
 def test_points_of_a_file_that_has_changed_are_solved_anew(tmp_path, capsys):
-    """A curve was half of the old file and half of the new one."""
     law, directory = tmp_path / "law.py", tmp_path / "sweep"
     words = ["sweep", *FILM, "--set", f"contact.surface={law}:waves", "--over", "motion.speed=1,2 m/s"]
     words += ["--quiet", "--out", str(directory)]

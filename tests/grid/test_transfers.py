@@ -9,7 +9,6 @@ INNER = (slice(1, -1), slice(1, -1))
 
 
 def kinds(*status):
-    """The (status, rows) of a coarse and a fine grid."""
     return tuple((each, rows_of(each)) for each in status)
 
 

@@ -78,7 +78,6 @@ def test_an_oil_by_its_name(name, eta, alpha):
 
 
 def value_for(key):
-    """A value of a key that is right alone."""
     rules = KEYS[key].metadata
     low = 0.6 if rules["above"] else (rules["low"] or 0.0)
     low = low if low > 0.0 else min(1e-4, rules["high"] or 1e-4)
@@ -86,7 +85,6 @@ def value_for(key):
 
 
 def refused_together(*keys):
-    """What is said of a file that has all these keys."""
     tables = {}
     for key in keys:
         section, _, name = key.partition(".")
@@ -179,7 +177,6 @@ def test_a_setting_pushes_out_no_more_than_it_replaces():
 
 
 def test_a_radius_that_takes_the_arm_of_a_rotation_says_so():
-    """body_1.rotation was said to be that of a flat body."""
     roller = {"body_1.radius_x": "9 mm", "body_1.rotation": "3000 rpm", "body_2.speed": 0}
     roller["contact.kind"] = "line"
     words = "contact.radius_x = '5 mm': takes the place of body_1.radius_x, by which body_1.rotation is"

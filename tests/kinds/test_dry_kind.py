@@ -40,7 +40,6 @@ def test_speed_and_lubricant_do_not_matter(speed):
 
 
 def test_the_keys_of_its_fluid_are_kept():
-    """So that it can get the fluid again."""
     of_fluid = {"motion.speed": 3e-4, "lubricant.viscosity": 0.01, "solver.start": "film"}
     config = load_config(None, DRY | of_fluid)
     tables = config.as_toml_tables()

@@ -30,7 +30,6 @@ def own(tmp_path):
 
 
 def refusal(function, *arguments):
-    """The one line after file and name."""
     with pytest.raises(OwnFunctionError) as caught:
         function.check_arguments(*arguments)
         function.pair(SHAPE, *(np.zeros(SHAPE) for _ in arguments))

@@ -133,7 +133,6 @@ def test_a_compliance_is_positive(own):
 
 
 def test_laws_are_told_the_temperature_of_the_oil(tmp_path):
-    """They were promised it, and told None."""
     (tmp_path / "warm.py").write_text(
         "import numpy as np\n"
         "def eta(at):\n"

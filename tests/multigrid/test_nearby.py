@@ -13,20 +13,17 @@ REACH = 1
 
 @pytest.fixture
 def influence(jacobian):
-    """Coefficients [line, node] of all nodes on each other."""
     mesh, kernel = jacobian.grid.mesh, jacobian.contact.kernel
     return influence_coefficients(mesh, kernel, 0, mesh.ny + 1)[:, : mesh.nx + 1]
 
 
 @pytest.fixture
 def masks(jacobian, masks):
-    """With their ghost lines."""
     return [jacobian.grid.halo(mask) for mask in masks]
 
 
 @pytest.fixture(params=["everywhere", "in the middle"])
 def zone(request, jacobian):
-    """The nodes that are solved for, a mask."""
     grid = jacobian.grid
     return (grid.X**2 + grid.Y**2 < 1.0) | (request.param == "everywhere")
 

@@ -48,7 +48,6 @@ def system(rng):
 
 
 def turned(linearisation):
-    """With X and Y exchanged."""
     A, B = (np.ascontiguousarray(each.transpose(0, 2, 1)) for each in (linearisation.A, linearisation.B))
     return Linearisation(np.ascontiguousarray(OFFSETS[:, ::-1]), A, B, None)
 

@@ -12,7 +12,6 @@ from mgehl.output.solution import Solution
 
 
 def advice(settings=(), **changes):
-    """Of a run with these settings that did not converge."""
     config = load_config(settings=["grid.nodes=65", *settings])
     contact = contact_from(config)
     config = with_domain(config, contact)

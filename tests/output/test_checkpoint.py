@@ -49,8 +49,6 @@ def standing(kept, grid):
 
 
 class TestFile:
-    """`save` and `load`."""
-
     RECORD = {"format": checkpoint.FORMAT, "mgehl": checkpoint.VERSION, "configuration": TABLES}
     ARRAYS = {"array0": np.linspace(0.0, 1.0, 12).reshape(3, 4), "array1": np.eye(3, dtype=np.int8)}
 
@@ -125,8 +123,6 @@ CASES = {
 
 
 class Counting(Silent):
-    """Counts the cycles that it is told of."""
-
     told = 0
 
     def row(self, row, left=None):
@@ -170,7 +166,6 @@ class TestStoppedAtEveryStep:
                 stops += 1
 
     def timeless(self, rows):
-        """The rows without seconds, sums of convolutions to rounding."""
         return [
             {key: value for key, value in row.items() if key != "seconds"}
             | {"convolutions": round(row["convolutions"], 9)}

@@ -42,8 +42,6 @@ SOLUTIONS = {H0: make_solution(H0) for H0 in (-0.25, -0.5)}
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
-    """Runs whose picture takes no time."""
-
     def drawn(solution):
         return b"picture of %f" % solution.H0
 
@@ -51,7 +49,6 @@ def quick(monkeypatch):
 
 
 def put(directory, H0, force=False):
-    """A run in a directory, as `mgehl run` puts it there."""
     make_directory(directory, force)
     prepare_directory(directory)
     begin_run(directory, SOLUTIONS[H0].config)
@@ -70,7 +67,6 @@ def content(directory):
 
 
 def timeless(directory):
-    """Its content without fields.h5, in which HDF5 puts the time."""
     return {name: each for name, each in content(directory).items() if name != "fields.h5"}
 
 

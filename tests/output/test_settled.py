@@ -38,6 +38,5 @@ def test_a_film_that_approaches_its_limit_slowly_has_not(scene):
 
 
 def test_a_film_whose_steps_are_longer_than_a_passage_has_not(scene):
-    """That ended in a TypeError."""
     long = [each | {"path_x_um": 15.0 * each["path_x_um"]} for each in rows(scene, 1, lambda k: 100.0)]
     assert not have_settled(long, scene)

@@ -48,7 +48,6 @@ def written(tmp_path_factory):
 
 @pytest.fixture
 def copy(written, tmp_path):
-    """The directory of a line contact, to be damaged."""
     return shutil.copytree(written("line")[1], tmp_path / "copy")
 
 
@@ -66,7 +65,6 @@ def edited(directory, texts=lambda texts: texts, **arrays):
 
 
 def refused(directory):
-    """What is said of a directory, in one line."""
     text = refusal(read_run, directory, error=OutputError)
     assert str(directory) in text and len(text) < 400
     return text.removeprefix(f"{directory}")

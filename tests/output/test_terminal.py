@@ -4,8 +4,6 @@ import json
 import os
 import pty
 import struct
-import subprocess
-import sys
 import termios
 from math import inf, nan
 from types import SimpleNamespace
@@ -21,7 +19,6 @@ ROW = {"grid": 4097, "speed_mm_s": 0.005, "step": 60, "residual": 1.2e-5, "load_
 
 
 def said(speaker, capsys, **changes):
-    """What a speaker puts out and complains of in a run of one cycle."""
     with speaker:
         speaker.row(ROW, 7.0)
         bearing = SimpleNamespace(is_loaded=False)
@@ -74,50 +71,3 @@ def pseudo_terminal(columns):
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
     return ours, theirs
-
-
-TEXT = f"""
-import time
-from mgehl.output.terminal import speaker
-with speaker() as words:
-    time.sleep(0.6)
-    for step in range(4):
-        words.row({ROW} | {{'step': step, 'seconds': 1.0 + step}}, None if step == 0 else 6.2)
-        time.sleep(0.15)
-    words.news('[line] ' + 30 * 'xxx ')
-    words.writing()
-    time.sleep(1.1)
-print('the end')
-"""
-
-
-def shown(**environment):
-    """All that came to a terminal of 100 columns."""
-    ours, theirs = pseudo_terminal(100)
-    environment = os.environ | {"TERM": "xterm-256color", "COLUMNS": "100"} | environment
-    process = subprocess.Popen([sys.executable, "-c", TEXT], stdout=theirs, env=environment)
-    os.close(theirs)
-    shown = b""
-    while True:
-        try:
-            part = os.read(ours, 65536)
-        except OSError:  # all have gone
-            break
-        if not part:
-            break
-        shown += part
-    os.close(ours)
-    assert process.wait(timeout=60) == 0
-    return shown.decode()
-
-
-class TestLive:
-    @pytest.fixture(scope="class")
-    def text(self):
-        environment = {} if "NO_COLOR" not in os.environ else {"NO_COLOR": ""}
-        return shown(**environment)
-
-    def test_it_leaves_the_terminal_as_it_was(self, text):
-        assert text.rstrip().endswith("the end")
-        assert "\x1b[?25l" in text and text.rindex("\x1b[?25h") > text.rindex("\x1b[?25l")
-        assert "\x1b[2K" in text[text.rindex("writing results") :], "the bar is wiped out"

@@ -22,7 +22,6 @@ def test_a_shear_in_time_that_no_oil_bears_is_named(shear, is_odd):
 
 
 def test_a_mean_is_rounded_as_its_band_is():
-    """A report had 150 ± 30 on top and 148.9 ± 21 below."""
     means = Mean(148.9, 20.0), Mean(148.93, None), Mean(148.93, 1.0)
     bands = {"mean_gap_nm": 1.0}, {"mean_gap_nm": 1e-3}, {}
     times = [

@@ -56,12 +56,10 @@ def lines(grid, whole):
 
 
 def whole(grid, array):
-    """The whole array on every rank (collective)."""
     return COMM.bcast(grid.gather(array))
 
 
 def random(grid, seed=0):
-    """The same whole array of random numbers on every rank."""
     return np.random.default_rng(seed).standard_normal((grid.mesh.ny, grid.mesh.nx))
 
 
@@ -362,7 +360,6 @@ class TestCommandLine:
 
     @pytest.fixture
     def directory(self, tmp_path):
-        """Rank 0's temporary directory, the same on every rank."""
         return COMM.bcast(tmp_path)
 
     def test_a_law_that_turns_nan_late_is_said_once_and_loses_nothing(self, directory, capsys):

@@ -14,7 +14,6 @@ MOES_DOMAIN = {"x": (-4.5, 1.5), "y": (-3.0, 3.0)}
 
 
 def test_full_film_at_one_metre_per_second(solve, paper_contact):
-    """The paper's ball on 129 nodes."""
     solution = solve(paper_contact(), 129)
     assert solution.outcome.converged
     assert solution.films == (pytest.approx(407.620, rel=1e-5), pytest.approx(130.083, rel=1e-5))

@@ -25,7 +25,6 @@ def make_partition(make_problem):
 
 @pytest.fixture
 def state(state, tiny_problem):
-    """All film with P = 0.5 and a gap of 1."""
     state.P[:] = state.p[:] = np.where(tiny_problem.boundary, 0.0, 0.5)
     return state
 

@@ -42,7 +42,6 @@ def sphere(counted=None):
 
 
 def cylinder():
-    """The same of a cylinder."""
     return LineContact(F_LINE, R, 1e12, 1e-3, OIL), F_LINE / (0.5 * np.pi * np.sqrt(2.0 * R * FILM))
 
 

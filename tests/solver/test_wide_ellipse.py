@@ -13,7 +13,6 @@ RADIUS, MODULUS = 8e-3, 226e9
 
 
 def contact(**how):
-    """Of a spherical roller bearing, 257 nodes along each side."""
     bodies = {"radius_x": RADIUS, "reduced_modulus": MODULUS, **how}
     tables = {"contact": bodies, "lubricant": OIL, "motion": {"speed": 8.0}, "grid": {"nodes": 257}}
     return config_from_tables(tables | {"solver": {"error": False}})

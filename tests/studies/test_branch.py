@@ -43,7 +43,6 @@ class TestBothBranches:
 class TestStudies:
     @pytest.fixture(autouse=True)
     def few(self, monkeypatch):
-        """Few speeds, fast ones: 65 and 129 nodes resolve no others."""
         monkeypatch.setattr(transition, "COUNT", 4)
 
     def test_transition(self, tmp_path):

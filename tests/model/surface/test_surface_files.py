@@ -34,7 +34,6 @@ def matrix(path, separator=" ", head=""):
 
 
 def points(path, separator=" ", head="", keep=slice(None)):
-    """In micrometres, in no order."""
     rows = [
         (1e6 * x + 100.0, 1e6 * y, 1e6 * z)
         for line, y in zip(HEIGHTS, Y, strict=True)

@@ -19,7 +19,6 @@ def solution():
 
 
 def read(path):
-    """Fields of an exported file by name, (ny, nx) or in a row."""
     if path.suffix == ".nc":
         with xarray.open_dataset(path, engine="h5netcdf") as data:
             return {name: data[name].values for name in data.variables}

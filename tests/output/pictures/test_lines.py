@@ -7,7 +7,6 @@ from mgehl.output.pictures.lines import centre_lines
 
 
 def lines_of(axes):
-    """Each line of an axes by its label."""
     return {line.get_label(): line for line in axes.get_lines()}
 
 

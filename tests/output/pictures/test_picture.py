@@ -19,7 +19,6 @@ def image_of(solution):
 
 
 def share(image, colour):
-    """Part of the dots that have a colour."""
     with style.applied():
         rgb = np.array(to_rgb(colour))
     return float(np.mean(np.all(np.abs(image - rgb) < 0.01, axis=-1)))

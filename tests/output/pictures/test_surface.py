@@ -11,7 +11,6 @@ RIDGE = ["surface.kind=ridge", "surface.amplitude=1e-6", "surface.width=2e-4", "
 
 
 def shown(solution):
-    """With a verdict on its surface."""
     resolution = SimpleNamespace(surface="coarse", surface_nodes=6.3)
     return replace(solution, result=replace(solution.result, resolution=resolution, Sq_nm=56.78))
 

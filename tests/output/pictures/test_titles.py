@@ -32,7 +32,6 @@ def test_they_say_the_keys_that_differ(one, other, said):
 
 
 def test_a_course_of_time_is_told_by_its_name(tmp_path):
-    """Pictures of several runs in time ended in an error."""
     for name in ("one", "two"):
         (tmp_path / f"{name}.csv").write_text("0,1\n1,2\n")
     settings = ([f"motion.speed={tmp_path / name}.csv", "time.end=1"] for name in ("one", "two"))
@@ -52,7 +51,6 @@ def test_names_of_runs(tmp_path, monkeypatch):
      (0.0, "", [], "0 mm/s")],
 )  # fmt: skip
 def test_pictures_of_a_run_in_time_are_of_its_end(make_solution, tmp_path, speed, way, arrow, said):
-    """They had the direction of the beginning, and no instant."""
     for name, unit, last in (("u", "m/s", speed / 1e3), ("F", "N", 400.0)):
         (tmp_path / f"{name}.csv").write_text(f"t [ms],{name} [{unit}]\n0,2\n4,{last}\n")
     courses = f"motion.speed={tmp_path / 'u.csv'}", f"contact.load={tmp_path / 'F.csv'}"

@@ -103,7 +103,6 @@ def run(request):
 
 @pytest.fixture(scope="module")
 def html(run):
-    """The run's whole page, pictures and all."""
     return report(run, "my-run")
 
 
@@ -169,7 +168,6 @@ def test_a_run_in_time_tells_its_means_and_that_other_numbers_are_those_at_its_e
 
 
 def sheared(temperatures):
-    """Friction of a body that another slides on."""
     return FrictionResult(
         "eyring", 0.5, 0.25, 0.125, 0.125, 0.0, 0.03125, 0.0, -12.5, 7.5, -2.5, 4.0, 40.0, temperatures
     )
@@ -188,7 +186,6 @@ def test_every_picture_of_a_run_has_its_words(film_run, monkeypatch):
 
 
 def test_what_resists_and_what_heat_takes_are_in_the_words_of_the_terminal(film_run, quick):
-    """Only the record had them."""
     friction = sheared(Temperatures(50.0, 60.0, 20.0, 90.0))
     result = changed(film_run, friction=friction, thermal_reduction=0.75, flux_imbalance=0.0)
     page = quick(result)

@@ -12,7 +12,6 @@ RECORD = StudyRecord("wedge", (65, 129), 2, {"mgehl": "0.1.0", "petsc": "3.18.5"
 
 @pytest.fixture
 def directory(tmp_path):
-    """What a study leaves."""
     directory = tmp_path / "mine"
     directory.mkdir()
     (directory / "cases.csv").write_text('case,"P(22,0)",order\n<b>,0.5,\nblocked exit,-1e-3,2.01\n')
