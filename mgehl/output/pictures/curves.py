@@ -5,6 +5,7 @@ from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib.lines import Line2D
 from matplotlib.ticker import LogFormatter
 
 from mgehl.config import KEYS
@@ -48,6 +49,10 @@ NOT_HERE = {"color": "0.4", "marker": "|", "linestyle": "none", "markersize": 10
 """On the upper edge, where a run has no answer."""
 
 
+HOLLOW = "white"
+"""Face of a point without a band that others of its kind have: it is the grid's."""
+
+
 class Group(NamedTuple):
     """Runs that differ in the key alone, or have a name in common, and their look."""
 
@@ -71,7 +76,7 @@ def curves(runs, key, names=()):
         shade = _shade_mixed(axis, runs, key, "" if len(groups) == 1 else ", on some of the curves")
     for axis in axes.flat[len(panels) :]:
         axis.remove()
-    if handles := _handles(axes.flat[0], groups) + [shade] * bool(shade):
+    if handles := _handles(axes.flat[0], groups) + _hollow(figure) + [shade] * bool(shade):
         legend_under_all(figure, handles)
     failed = sum(not run.settled for run in runs)
     note = f", {failed} without an answer (ticks above)" if failed else ""
@@ -98,6 +103,14 @@ def _handles(axis, groups):
     if len(groups) == 1:
         return []
     return [axis.plot([], [], color=each.colour, label=name)[0] for name, each in groups.items()]
+
+
+def _hollow(figure):
+    """Of points without a band, for a legend; none where all have one."""
+    lines = [line for axis in figure.axes for line in axis.lines if line.get_markerfacecolor() == HOLLOW]
+    there = any(np.isfinite(line.get_ydata()).any() for line in lines)
+    look = {"marker": "o", "markerfacecolor": HOLLOW, "markersize": 4, "linestyle": "none", "color": "0.4"}
+    return [Line2D([], [], label="no band: the grid's", **look)] * there
 
 
 def _draw_panel(axis, runs, groups, key, label, panel):
@@ -176,7 +189,7 @@ def _draw_group(axis, group, key, panel, factor):
         (line,) = axis.plot(at, y, stroke, color=colour, label=meaning)
         handles.append(line)
         bare = np.isnan(width) & np.isfinite(width).any()
-        for part, face in ((~bare, colour), (bare, "white")):
+        for part, face in ((~bare, colour), (bare, HOLLOW)):
             axis.plot(at[part], y[part], mark, color=colour, markerfacecolor=face, markersize=4)
         if np.isfinite(width).any():
             axis.errorbar(at, y, np.where(bare, 0.0, width), fmt="none", ecolor=colour, capsize=2)

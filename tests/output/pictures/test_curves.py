@@ -27,3 +27,15 @@ def test_mixed_lubrication_is_grey_up_to_halfway_to_what_is_not():
 
 def test_full_films_have_no_grey():
     assert shaded(curves([told(0.1, 0.0), told(0.2, 0.001)], "motion.speed")) == []
+
+
+def labels(figure):
+    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+
+
+def test_a_point_without_a_band_that_others_have_is_hollow_and_the_legend_says_so():
+    runs = [told(speed, 0.5) for speed in (0.1, 0.2)]
+    assert "no band: the grid's" not in labels(curves(runs, "motion.speed"))
+    runs[0].result["mixed"]["error"] = {"mean_nm": 1.0}
+    figure = curves(runs, "motion.speed")
+    assert "no band: the grid's" in labels(figure)
