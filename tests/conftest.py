@@ -23,9 +23,9 @@ DOMAIN = {"x": (-1.9, 1.3), "y": (-1.5, 1.5)}
 VISCOSITY = Barus(0.096, 18.2e-9)
 
 LONGEST = (
-    "test_time.py", "test_resume.py", "test_readme.py", "test_help.py", "test_sweep.py", "test_many_ranks.py",
-    "test_hypothesis.py", "test_branch.py", "test_stored.py", "test_bands_of_studies.py", "test_cli.py",
-    "test_rough_machines.py", "test_run_command.py", "test_checkpoint.py", "test_hostile.py",
+    "test_time.py", "test_resume.py", "test_readme.py", "test_help.py", "test_sweep.py",
+    "test_many_ranks.py", "test_hypothesis.py", "test_branch.py", "test_stored.py", "test_cli.py",
+    "test_bands_of_studies.py", "test_rough_machines.py", "test_run_command.py", "test_checkpoint.py",
 )  # fmt: skip
 """Files that take longest. They begin first: else one process would be left alone with one at the end."""
 
