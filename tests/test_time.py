@@ -463,6 +463,7 @@ def test_surfaces_that_stand_still_squeeze_a_film_out(course):
     result, words = after.summary, str(after)
     assert result.groups is None and result.formulas == {} and result.resolution.verdict == "standing"
     assert "none: the surfaces stand still" in words and "passage" not in words
+    assert "moes_M" not in after.to_xarray() and "moes_M" in flows.to_xarray()
 
 
 def test_how_a_film_is_squeezed_does_not_hang_on_the_end_of_the_run():

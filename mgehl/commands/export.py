@@ -1,8 +1,8 @@
 """mgehl export: write a run's fields for other programs
 
 Write the fields of a finished run (pressures, film, status, content, heights) in SI units: vts for
-ParaView, nc (NetCDF-4, CF conventions) for xarray, npz for NumPy, csv for anything; pvd is a run in time
-for ParaView, instant by instant.
+ParaView, nc (NetCDF-4, CF conventions, with the numbers of a sweep) for xarray, npz for NumPy, csv for
+anything; pvd is a run in time for ParaView, instant by instant.
 
 example: mgehl export runs/try --to vts,nc
 """

@@ -2,6 +2,7 @@
 
 from datetime import UTC, datetime
 from functools import partial
+from math import isnan
 
 import numpy as np
 import tomli_w
@@ -9,7 +10,7 @@ import tomli_w
 from mgehl.output.files import FURTHER, further_fields, plain_result
 from mgehl.output.laws import portable
 from mgehl.output.netcdf import PLANES, flags, netcdf_file, put
-from mgehl.output.quantities import numbers_and_bands, told_at
+from mgehl.output.quantities import Told, numbers_and_bands
 
 GROUPS = {
     "group_U": "speed parameter U",
@@ -18,7 +19,7 @@ GROUPS = {
     "moes_M": "load number M of Moes",
     "moes_L": "material number L of Moes",
 }
-"""Those of a lubricated contact."""
+"""Those of a lubricated contact that moves."""
 
 
 def write_netcdf(path, solution):
@@ -37,7 +38,7 @@ def write_netcdf(path, solution):
         _write_coordinates(write, solution)
         _write_fields(write, solution)
         for name, value, unit, meaning in _scalars(solution):
-            if value is not None:
+            if not isnan(value):
                 write(name, (), np.float64(value), units=unit, long_name=meaning)
 
 
@@ -70,9 +71,10 @@ def _write_fields(write, solution):
 def _scalars(solution):
     """(Name, value, unit, meaning) of what drives the contact, in time at its end, and of its numbers."""
     yield from _driving(solution.at_the_end, solution)
-    result = plain_result(solution.result)
+    told = Told(solution.config.as_toml_tables(), plain_result(solution.result))
+    of_the_end = " at the end" if solution.config.is_in_time else ""
     for name, unit, meaning, path in numbers_and_bands():
-        yield name, told_at(result, path), unit, meaning
+        yield name, told.number(path), unit, meaning + of_the_end
 
 
 def _driving(contact, solution):
@@ -82,9 +84,9 @@ def _driving(contact, solution):
         yield "speed", speed, "m s-1", "speed of the plate"
         return
     yield "normal_load", contact.load, solution.config.kind.load_unit.replace("/m", " m-1"), "normal load"
+    if solution.result.groups:  # neither of dry bodies nor of those that stand still
+        groups = contact.unheated.at_speed(abs(speed) or contact.speed).groups
+        yield from ((name, getattr(groups, name[-1]), "1", meaning) for name, meaning in GROUPS.items())
     if not solution.is_dry:
         yield "speed", speed, "m s-1", "entrainment speed, negative where it has turned"
         yield "angle", contact.angle, "degree", "direction of the motion, from +x towards +y"
-        # Of surfaces at rest the groups are those of the largest speed.
-        groups = contact.unheated.at_speed(abs(speed) or contact.speed).groups
-        yield from ((name, getattr(groups, name[-1]), "1", meaning) for name, meaning in GROUPS.items())

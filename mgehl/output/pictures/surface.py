@@ -40,7 +40,7 @@ def _seen(result):
     """Verdict on the grid and nodes in the shortest wave."""
     if found := result.resolution:
         return found.surface, found.surface_nodes
-    return result.surface.verdict, result.surface.wave_nodes
+    return (result.surface.verdict, result.surface.wave_nodes) if result.surface else ("", None)
 
 
 def _height_map(axes, solution, heights):

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
 import numpy as np
@@ -85,6 +86,14 @@ def test_scalars_of_a_loaded_contact(kind, opened):
         assert float(data[name]) == getattr(result, name)
     for name in ("group_U", "group_W", "group_G", "moes_M", "moes_L"):
         assert float(data[name]) == getattr(contact.groups, name[-1])
+
+
+def test_lambda_is_told_of_bodies_that_are_rough_by_a_number(tmp_path):
+    smooth = make_solution("point")
+    rough = replace(smooth, config=smooth.config.with_({"body_1.roughness": "50 nm"}))
+    write_netcdf(tmp_path / "a.nc", rough)
+    with xarray.open_dataset(tmp_path / "a.nc", engine="h5netcdf") as data:
+        assert float(data.lambda_ratio) == pytest.approx(rough.result.central_film_nm / 50.0)
 
 
 @every_kind
