@@ -45,6 +45,7 @@ from mgehl.solver.from_config import SetUp, set_up
 from mgehl.solver.in_time import march, march_beside
 from mgehl.solver.journal import Asked
 from mgehl.solver.nested import single_loop
+from mgehl.solver.recipe import recipe_in_time
 from mgehl.solver.recipe_words import plain
 from mgehl.solver.restart import solve_from
 from mgehl.solver.task import Task
@@ -283,8 +284,13 @@ class _LoadedSolve:
         return Making(work, self.monitor.seconds, versions())
 
     def _recipe(self, outcome):
-        """What was chosen on the way to an `Outcome`, as result.json has it."""
-        return plain(self.parts.recipe(self.start, outcome.begins))
+        """What was chosen on the way to an `Outcome`, as result.json has it; in time that of the beginning,
+        and what is otherwise in steps."""
+        beginning, settings = plain(self.parts.recipe(self.start, outcome.begins)), self.parts.settings
+        if not self.case.config.is_in_time:
+            return beginning
+        steps = plain(recipe_in_time(settings, self.parts.contact))
+        return beginning | {"steps": {key: each for key, each in steps.items() if each != beginning[key]}}
 
     def _solution(self, problem, outcome, result, maps=None):
         return solution_of(self.case, self.parts, problem, outcome.state, self.monitor.rows, result, maps)

@@ -386,6 +386,9 @@ def test_rough_bodies_make_no_oil(rough):
     assert np.abs(column(rough, "closure")).max() < 1e-8
     assert rough.summary.time.largest_node < 1e-8
     assert rough.summary.complementarity_error < 1e-6
+    # The steps' own choices are told beside those of the beginning.
+    recipe = rough.summary.recipe
+    assert recipe["squeeze"] > 0.0 == recipe["steps"]["squeeze"]
     assert column(rough, "load_on_contact").max() > 0.0
     assert np.all(column(rough, "load_on_solids") <= column(rough, "load_on_contact") + 1e-12)
     assert np.abs(column(rough, "load_error")).max() < 1e-4

@@ -33,10 +33,6 @@ from mgehl.multigrid.smoother_choice import smoother_of
 IN_THE_CYCLE = {"2C": "3B", "S2C": "3B"}
 """The cycle's Couette schemes where the solved one leaves waves of two cells, which lines do not damp."""
 
-ASKEW = IN_THE_CYCLE | {"3B": "2B"}
-"""The same where the surfaces move at an angle to the lines. Elsewhere 3B takes a third less by its own
-operators."""
-
 DIRECT = 4097
 """Most nodes of a line between rough bodies that is solved directly: coarse grids do not see the peaks
 through which valleys are coupled, and a third of such contacts are not found by the cycle."""
@@ -77,8 +73,7 @@ class MultigridSolver:
     def __init__(self, hierarchy, level, contact, scheme, settings=CycleSettings()):
         self._hierarchy, self._oblique = hierarchy, scheme.is_oblique
         self._rough, self._in_valleys, self._direct = settings.rough, settings.in_valleys, settings.direct
-        better = ASKEW if self._oblique else IN_THE_CYCLE
-        self._scheme = _scheme_of_cycle(settings.couette, scheme, better)
+        self._scheme = _scheme_of_cycle(settings.couette, scheme)
         first = self._first_grid(hierarchy.grids, level)
 
         def jacobian_on(number, scheme):
@@ -92,6 +87,7 @@ class MultigridSolver:
         """What is solved."""
         if self._scheme is not scheme:
             self.jacobian = jacobian_on(level, scheme)
+        self._all = list(dict.fromkeys((*self.jacobians, self.jacobian)))
         self._transfers = hierarchy.transfers[first:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
         self._smoothers = [self._smoother(each)(each, settings.omega) for each in self.jacobians[1:]]
@@ -124,7 +120,7 @@ class MultigridSolver:
         """Destroy Mats and MPI datatypes; the KSP that uses them must be destroyed before."""
         for smoother in self._smoothers:
             smoother.free()
-        for jacobian in (*self.jacobians, self.jacobian):
+        for jacobian in self._all:
             jacobian.mat.destroy()
             # It refers to the jacobian, whose arrays would wait for the garbage collector.
             jacobian.witness = None
@@ -157,7 +153,7 @@ class MultigridSolver:
         equations. The load answers to H0 by itself with a `resistance`. The evaluation forgets its faces
         and, where memory is short, the fluid.
         """
-        for jacobian in (*self.jacobians, self.jacobian):
+        for jacobian in self._all:
             jacobian.resistance = resistance
         self._linearise_finest(evaluation, rows, rate)
         here = _About.finest(evaluation, rows, rate)
@@ -191,7 +187,7 @@ class MultigridSolver:
     def forget(self):
         """Where memory is short, free that of the linearisation and its factors: the next has others."""
         if self._memory_is_short:
-            for part in (*self.jacobians, self.jacobian, *self._smoothers):
+            for part in (*self._all, *self._smoothers):
                 part.forget()
 
     def configure(self, ksp, rtol):
@@ -220,9 +216,9 @@ class MultigridSolver:
         return is_large(self.jacobian.grid.mesh)
 
 
-def _scheme_of_cycle(asked, solved, better):
-    """The `solved` scheme with the Couette flow `asked` for: "same" is its own, or a `better` one."""
-    couette = better.get(solved.couette, solved.couette) if asked == "same" else asked
+def _scheme_of_cycle(asked, solved):
+    """The `solved` scheme with the Couette flow `asked` for: "same" is its own, or a better one."""
+    couette = IN_THE_CYCLE.get(solved.couette, solved.couette) if asked == "same" else asked
     return solved if couette == solved.couette else replace(solved, couette=couette)
 
 

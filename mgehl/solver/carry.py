@@ -217,7 +217,7 @@ class Transport:
 
     def _moved(self, carried, shift):
         """What passed the faces of each axis in the last step, moved along."""
-        G_x = np.pad(moved(carried.G_x[:, :-1], shift.along_x), ((0, 0), (0, 1)))
+        G_x = _of_nodes("x", moved(carried.G_x[:, :-1], shift.along_x))
         G_y = None if carried.G_y is None else moved(carried.G_y, shift.along_x)
         if shift.along_y:
             G_x, G_y = self._moved_across(G_x, shift, 0), self._moved_across(G_y, shift, 1)
@@ -296,5 +296,5 @@ class Leg:
         G, m = self.pressed(evaluation), content(evaluation.fluid)
         inner = own(evaluation.status) != BOUNDARY
         m = np.where(inner, m + self.b * self.dT * evaluation.inflow, m)
-        G_x = np.pad(G[0], ((0, 0), (0, 1)))
-        return Carried(m, G_x, G[1][:-1].copy() if len(G) > 1 else None, self.dT)
+        G_x, G_y = _of_nodes("x", G[0]), _of_nodes("y", G[1]) if len(G) > 1 else None
+        return Carried(m, G_x, G_y, self.dT)

@@ -93,6 +93,8 @@ def first_guess(problem, begins, P=None):
     H0 = problem.touching(P)
     if begins in (FULL_FILM, UNSEEN_FILM):
         return problem.state(P, film + H0, np.full(grid.shape, LUBRICATED))
+    if begins != IN_CONTACT:
+        raise ValueError(f"{begins!r} is no first guess")
     pressed = pressed & problem.scheme.contact_law.has_contact
     return problem.state(P, H0, np.where(pressed, CONTACT, LUBRICATED))
 
@@ -113,9 +115,7 @@ def interpolate(transfer, problem, coarse):
     """The coarse state on the fine grid: P cubic, a node in contact where most of it would be. The first
     steps on every grid would smooth the kinks of a bilinear P."""
     P = transfer.cubic(coarse.P)
-    in_contact = transfer.bilinear((coarse.status == CONTACT).astype(float)) > 0.5
-    film = (P > problem.contact.tears_at) | (not problem.scheme.cavitation)
-    status = np.where(in_contact, CONTACT, np.where(film, LUBRICATED, CAVITATED))
+    status = problem.status_of(P, transfer.bilinear((coarse.status == CONTACT).astype(float)))
     return problem.state(P, coarse.H0, status, transfer.bilinear(coarse.p))
 
 

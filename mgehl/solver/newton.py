@@ -42,7 +42,7 @@ class Newton(PythonSnes):
 
     def __init__(self, problem, multigrid, settings, monitor=None):
         super().__init__(multigrid, settings)
-        self._problem, self._settings = problem, settings
+        self._problem = problem
         self._monitor = monitor or (lambda cycle: None)
         self._load_scale = multigrid.jacobian.load_scale
         self._partition = Partition(problem)
@@ -50,9 +50,9 @@ class Newton(PythonSnes):
 
     def run(self, state, journal=NOTHING_KEPT, tolerance=None):
         """Solve from `state`, which is the solve's own from now on; return the `Outcome`. The `journal` is
-        told of every step, and may know this solve or its first part already. `tolerance` overrules."""
-        if tolerance is not None:
-            self._snes.setTolerances(atol=tolerance)
+        told of every step, and may know this solve or its first part already. A `tolerance` is this solve's
+        alone."""
+        self._tolerance = self._settings.tolerance if tolerance is None else tolerance
         grid, self._journal = self._problem.grid, journal
         outcome = journal.recall(grid, partial(Outcome.from_record, line=Cycle))
         if outcome is None:
@@ -85,8 +85,7 @@ class Newton(PythonSnes):
     def _iterate(self):
         """One solve from top to bottom."""
         position, partition = self._position, self._partition
-        _, tolerance, _, max_steps = self._snes.getTolerances()
-        limits = replace(self._settings, tolerance=tolerance, max_steps=max_steps)
+        limits = replace(self._settings, tolerance=self._tolerance)
         while True:
             self._journal.step(self._problem.grid, position)
             self._settle()
@@ -145,7 +144,7 @@ class Newton(PythonSnes):
             return min(self._linear_tolerance, IN_TURN_TOLERANCE)
         if not self._settings.in_time:
             return self._linear_tolerance
-        _, asked, _, _ = self._snes.getTolerances()
+        asked = self._tolerance
         left = ENOUGH * asked / max(self._position.cycles[-1].residual, asked)
         return max(self._linear_tolerance, left)
 

@@ -225,6 +225,13 @@ class ContactProblem(Problem):
         filling = np.ones(P.shape) if filling is None else np.clip(filling, 0.0, 1.0)
         return State(P, H0, H, status, p, filling)
 
+    def status_of(self, P, in_contact):
+        """The status of nodes whose pressure P is another solution's: contact where that has more than half
+        of it (a part of 1), film or cavity as P says."""
+        film = np.where((P > self.contact.tears_at) | (not self.scheme.cavitation), LUBRICATED, CAVITATED)
+        touching = (in_contact > 0.5) & self.scheme.contact_law.has_contact
+        return np.where(touching, CONTACT, film).astype(np.int8)
+
     def with_own_gap(self, state):
         """A state of this problem with the pressures, statuses and contents of another one's."""
         return self.state(state.P, state.H0, state.status, state.p, state.filling)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.discretization.status import CONTACT
 from mgehl.errors import UserError
 from mgehl.grid.onto import onto, smoothly_onto
 from mgehl.model.own_function import file_and_function
@@ -212,7 +212,7 @@ def interpolated(problem, start, frame):
 
 def _laid_on(problem, start, frame):
     """P, p, fillings and status of a `Solution` at the nodes of this problem's whole grid."""
-    mesh, contact, fields, before = problem.grid.mesh, problem.contact, start.fields, start.at_the_end
+    mesh, fields, before = problem.grid.mesh, start.fields, start.at_the_end
     # The units of a run in time are those of its first load.
     wider = start.contact.x_scale / before.x_scale
     higher = start.contact.pressure_scale / before.pressure_scale
@@ -223,10 +223,8 @@ def _laid_on(problem, start, frame):
 
     P, p = higher * laid(fields.P), higher * laid(fields.fluid_pressure)
     filling = 1.0 - laid(1.0 - fields.full_part)  # full outside
-    film = np.where((P > contact.tears_at) | (not problem.scheme.cavitation), LUBRICATED, CAVITATED)
-    in_contact = laid((fields.status == CONTACT).astype(float)) > 0.5
-    touching = in_contact & problem.scheme.contact_law.has_contact
-    return P, p, filling, np.where(touching, CONTACT, film).astype(np.int8)
+    status = problem.status_of(P, laid((fields.status == CONTACT).astype(float)))
+    return P, p, filling, status
 
 
 def begun_in_time(problem, start, frame):

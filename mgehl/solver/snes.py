@@ -1,5 +1,7 @@
 """A python-type SNES: PETSc's options, monitors and viewers of SNES, KSP and PC see what is solved."""
 
+from dataclasses import replace
+
 from petsc4py import PETSc
 
 from mgehl.errors import OptionError
@@ -22,7 +24,10 @@ class PythonSnes:
         self._snes.setTolerances(atol=settings.tolerance, rtol=0.0, max_it=settings.max_steps)
         multigrid.configure(self._snes.getKSP(), settings.linear_tolerance)
         self._snes.setFromOptions()
-        self._linear_tolerance = self._snes.getKSP().getTolerances()[0]  # PETSc's options may give another
+        # PETSc's options may give others.
+        self._linear_tolerance = self._snes.getKSP().getTolerances()[0]
+        _, tolerance, _, max_steps = self._snes.getTolerances()
+        self._settings = replace(settings, tolerance=tolerance, max_steps=max_steps)
         if self._snes.getType() != PETSc.SNES.Type.PYTHON:
             self.free()
             raise OptionError(f"-{OF_A_RUN}snes_type: the solver is the SNES type python, no other")

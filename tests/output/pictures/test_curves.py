@@ -1,7 +1,12 @@
 import pytest
 
-from mgehl.output.pictures.curves import curves
-from mgehl.output.quantities import Told
+from mgehl.output.pictures.curves import PANELS, curves
+from mgehl.output.quantities import QUANTITIES, Told
+
+NO_CURVES = {
+    "loaded_gap_nm", "friction_of_rolling", "bearing_drag_N", "bearing_power_W", "bearing_centre_mm",
+    "approach_um", "contact_area", "lambda_ratio", "convolutions",
+}  # fmt: skip
 
 
 def told(speed, solids):
@@ -39,3 +44,8 @@ def test_a_point_without_a_band_that_others_have_is_hollow_and_the_legend_says_s
     runs[0].result["mixed"]["error"] = {"mean_nm": 1.0}
     figure = curves(runs, "motion.speed")
     assert "no band: the grid's" in labels(figure)
+
+
+def test_each_quantity_has_a_curve_or_none_on_purpose():
+    drawn = {name for panel in PANELS.values() for name in panel}
+    assert drawn | NO_CURVES == QUANTITIES.keys() and not drawn & NO_CURVES
