@@ -54,7 +54,8 @@ def recipe_words(recipe, is_line, at_rest=False):
     """Words for each choice of a `Recipe` and why; of a single line, of surfaces that begin `at_rest`."""
     law, newton = recipe.scheme.contact_law, recipe.newton
     yield PEAKS[recipe.peaks]
-    limited = ", limited: no film behind a peak is less than none" if recipe.scheme.couette == "3L" else ""
+    is_limited = isfinite(recipe.scheme.couette_flow.limit)
+    limited = ", limited: no film behind a peak is less than none" if is_limited else ""
     mean = f"{recipe.scheme.face_mobility} mean of mobilities"
     yield f"Couette flow by {recipe.scheme.couette}{limited}; {mean}"
     yield f"contact {law.words}"
