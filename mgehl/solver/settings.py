@@ -76,7 +76,7 @@ class SolverSettings:
     """"newton-mg", or the paper's "relaxation" on the finest grid alone."""
     scheme: Scheme = field(default_factory=Scheme)
     start: str = SolverSection.start
-    """"film" from a full film on a coarse grid, "contact" from the Hertz ellipse in contact."""
+    """The user's "film" or "contact", or another first guess of `mgehl.solver.recipe`."""
     first_nodes: int = SolverSection.first_nodes
     """Nodes along X of the first grid of the nested iteration, and of a contact start's fluid."""
     inlet_cells: float = SolverSection.inlet_cells
