@@ -101,7 +101,7 @@ def check_domain(grid, contact, sense=1.0, wide=1.0):
         if side and needed > FARTHEST:
             raise ConfigError(
                 f"grid.{name}: the inlet that builds the film is {needed:.3g} semi-axes long, no domain "
-                f"goes beyond {FARTHEST:g}: the load is too light, or the speed too high"
+                f"goes beyond {FARTHEST:g}: the load is too light, the speed too high or a radius too large"
             )
         if side:
             words = f"must {side}, where the inlet that builds the film begins"

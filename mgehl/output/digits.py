@@ -17,6 +17,10 @@ SMALL = 1e-7
 """The same below this: of a coefficient."""
 
 
+THICK = 1e4
+"""nm from which on a film is told in um."""
+
+
 def is_number(text):
     """True of a number, of one with its band, and of two as in "3 of 7" or "3..7"."""
     try:
@@ -42,6 +46,12 @@ def with_band(value, half_width=None):
     unit, shown = 10.0**-decimals, max(0, decimals)  # below 0 whole tens
     wide = ceil(half_width / unit * (1.0 - 1e-12)) * unit  # never narrower than it is
     return f"{round(value / unit) * unit + 0.0:.{shown}f} ± {wide:.{shown}f}"
+
+
+def film_words(nm, half_width=None):
+    """A film, with its band if there is one."""
+    factor, unit = (1e-3, "um") if nm >= THICK else (1.0, "nm")
+    return f"{with_band(factor * nm, half_width and factor * half_width)} {unit}"
 
 
 def pressure_words(GPa, half_width=None):

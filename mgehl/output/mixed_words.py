@@ -11,22 +11,29 @@ MOLECULE = 0.5
 def mixed_lines(mixed):
     """Film and contact of rough bodies: what carries the load, on which area, how wide the gap is and how
     thick the film."""
-    patches = _counted(mixed.patches)
-    unit = mixed.area_unit.replace("µm²", "um^2")
-    largest = f", the largest {1e12 * mixed.largest_patch_m2:.4g} {unit}" if mixed.patches else ""
     ratio = f"lambda {_known(mixed.lambda_ratio)} ({_ratio_words(mixed)})"
     if not mixed.Sq_nm:
         ratio = "no roughness is within the contact"
     return [
         f"{ratio}: contact carries {_shares(mixed)}",
-        f"real contact area {1e12 * mixed.contact_area_m2:.4g} {unit}, "
-        f"{100 * mixed.contact_area_over_hertz:.2f} % of the Hertz area, in {patches}{largest}",
+        _real_contact(mixed),
         *_carried_by_solids(mixed),
         *_mean_gaps(mixed),
         f"film that is not torn, within the {mixed.hertz_region}: mean {_known(mixed.mean_film_nm)} nm, "
         f"minimum {_known(mixed.minimum_film_nm)} nm, {_known(mixed.valley_film_nm)} nm in valleys "
         f"deeper than Sq; torn on {100 * mixed.torn_share:.2f} % of it{filling_words(mixed)}",
     ]
+
+
+def _real_contact(mixed):
+    if not mixed.patches:
+        return "no node is in contact"
+    unit = mixed.area_unit.replace("µm²", "um^2")
+    return (
+        f"real contact area {1e12 * mixed.contact_area_m2:.4g} {unit}, "
+        f"{100 * mixed.contact_area_over_hertz:.2f} % of the Hertz area, in {_counted(mixed.patches)}, "
+        f"the largest {1e12 * mixed.largest_patch_m2:.4g} {unit}"
+    )
 
 
 def _ratio_words(mixed):

@@ -68,6 +68,15 @@ def surface_words(verdict, nodes):
     return f"{nodes:.1f} nodes in its shortest wave: {ADVICE[verdict]}"
 
 
+BEARABLE = 50.0
+"""GPa: no solid bears more."""
+
+
+def beyond_solids(GPa):
+    """What to think of a larger pressure, in words that follow it; nothing of others."""
+    return " (no solid bears that: does a point of the heights stand out?)" if GPa > BEARABLE else ""
+
+
 def surface_lines(config, contact, mesh):
     """Lines of `mgehl check` about a surface: its heights in the contact, its waves, its place."""
     if contact.surface is None:

@@ -1,6 +1,6 @@
 """A result in words: what a run, a `Solution` and a script print of it."""
 
-from mgehl.output.digits import pressure_words, with_band
+from mgehl.output.digits import film_words, pressure_words, with_band
 from mgehl.output.dry_error import no_band as no_dry_band
 from mgehl.output.film_error import NOT_ASKED
 from mgehl.output.friction_result import friction_lines
@@ -12,8 +12,8 @@ from mgehl.output.resolution import (
     beyond_words,
     domain_words,
     inlet_words,
-)
-from mgehl.output.surface import GRIDS, surface_words
+)  # fmt: skip
+from mgehl.output.surface import GRIDS, beyond_solids, surface_words
 from mgehl.output.time_words import SPIKE, time_lines
 
 HARDLY = 2e-3
@@ -279,9 +279,8 @@ def advice(result):
 
 def films_words(result):
     """Central and minimum film of a `Result` with their bands."""
-    error = result.error
-    central = with_band(result.central_film_nm, error.central_nm)
-    return f"central film {central} nm, minimum {with_band(result.minimum_film_nm, error.minimum_nm)} nm"
+    minimum = film_words(result.minimum_film_nm, result.error.minimum_nm)
+    return f"central film {film_words(result.central_film_nm, result.error.central_nm)}, minimum {minimum}"
 
 
 def band_words(error):
@@ -292,7 +291,8 @@ def band_words(error):
 def largest_pressure_words(result):
     """The largest pressure of a `Result` with its band; else whether the grid holds it."""
     spike = f" ({SPIKE}: the grid's)" if result.is_a_spike else ""
-    return f"{pressure_words(result.max_pressure_GPa, result.max_pressure_band_GPa)}{spike}"
+    largest = pressure_words(result.max_pressure_GPa, result.max_pressure_band_GPa)
+    return f"{largest}{spike}{beyond_solids(result.max_pressure_GPa)}"
 
 
 def span(ends):

@@ -2,7 +2,7 @@ from math import nan
 
 import pytest
 
-from mgehl.output.digits import with_band
+from mgehl.output.digits import film_words, with_band
 
 
 @pytest.mark.parametrize(
@@ -28,3 +28,8 @@ def test_a_film_without_a_band_has_four_decimals():
 def test_a_small_coefficient_has_its_digits():
     assert with_band(2e-10, 1e-11) == "2.000e-10 ± 1.0e-11"
     assert with_band(3.2e-4, 1.1e-5) == "0.000320 ± 0.000011"
+
+
+def test_a_thick_film_is_in_um():
+    assert film_words(9994.0, 30.0) == "9990 ± 30 nm"
+    assert film_words(382200.0, 400.0) == "382.2 ± 0.4 um" and film_words(12345.0) == "12.3450 um"

@@ -54,6 +54,13 @@ def test_it_runs_again_where_the_original_is_not(here, finished, tmp_path_factor
     assert copies[0].read_bytes() == copies[1].read_bytes()
 
 
+def test_a_report_needs_no_file_of_heights(finished):
+    """The run has them: on another machine the library that reads such files may not be there."""
+    shutil.rmtree(finished / "laws")
+    assert main(["report", str(finished)]) == 0
+    assert "heights.npy: cannot be read" in (finished / "report.html").read_text()
+
+
 def test_a_run_goes_on_with_its_copy_and_says_that_the_file_changed(here, capsys):
     assert run(*ROUGH, "--out", "whole") == 0
     assert run(*ROUGH, "--out", "stopped", "--time-limit", "1e-9") == 143

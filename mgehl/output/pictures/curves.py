@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.lines import Line2D
-from matplotlib.ticker import LogFormatter
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from mgehl.config import KEYS
 from mgehl.errors import UserError
@@ -204,8 +204,9 @@ def _scale(axis, x, y):
             axis.set(**{f"{name}scale": "log"})
             if max(values) < FEW * min(values):
                 ticks = getattr(axis, f"{name}axis")
-                ticks.set_major_formatter(LogFormatter())
-                ticks.set_minor_formatter(LogFormatter(minor_thresholds=(2.0, 1.0)))
+                ticks.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+                ticks.set_major_formatter(lambda value, _: f"{value:g}")
+                ticks.set_minor_formatter(NullFormatter())
         elif name == "y":
             top = max([axis.get_ylim()[1], *(ROOM * each for each in values)])
             axis.set_ylim(min([0.0, *values]), top)

@@ -7,6 +7,7 @@ from itertools import chain, groupby
 from pathlib import Path
 
 from mgehl.config import SECTIONS
+from mgehl.errors import UserError
 from mgehl.kinds.cited import cited
 from mgehl.kinds.kind import pressure_unit
 from mgehl.kinds.loaded import assumptions
@@ -74,13 +75,21 @@ def report(solution, name):
             of_what=of_what, films=films_of(result, of_what) if kind == "loaded" else None,
             pictures=list(pictures(solution)), keys=list(keys_of(config)),
             inputs=list(inputs_of(config)), notes=list(notes_on(solution)),
-            odd=list(implausible(config, solution.contact, _goes_on(result))),
+            odd=list(odd(config, solution.contact, _goes_on(result))),
             sources=list(sources_of(solution)),
             heads=heads, last=last, shown=shown,
             every="Every cycle" if len(shown) == len(rows) else f"{len(shown)} of {len(rows)} cycles",
             versions=[(package, (text, "code")) for package, text in result.versions.items()],
             record=[((field, "code"), text) for field, text in _leaves(plain_result(result))],
         )  # fmt: skip
+
+
+def odd(config, contact, goes_on):
+    """What is unusual in the input, as far as its files are still there: the result needs them no more."""
+    try:
+        yield from implausible(config, contact, goes_on)
+    except UserError as error:
+        yield f"no more could be looked at: {error}"
 
 
 def verdict(result):
@@ -180,7 +189,7 @@ def _beside(own, formula, is_steady):
     """The film of a formula and how much thicker the computed one is."""
     if formula is None:
         return "", ""
-    return film(formula), number(own / formula, 4) if is_steady and own is not None else ""
+    return number(formula, 4), number(own / formula, 4) if is_steady and own is not None else ""
 
 
 def pictures(solution):

@@ -34,6 +34,13 @@ def test_full_films_have_no_grey():
     assert shaded(curves([told(0.1, 0.0), told(0.2, 0.001)], "motion.speed")) == []
 
 
+def test_a_decade_has_numbers_that_can_be_read():
+    figure = curves([told(0.05, 0.5), told(1.0, 0.4)], "motion.speed")
+    figure.draw_without_rendering()
+    shown = {text.get_text() for text in figure.axes[0].get_xticklabels(which="both")} - {""}
+    assert {"0.05", "0.1", "0.2", "0.5", "1"} <= shown and "0.3" not in shown
+
+
 def labels(figure):
     return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
 
