@@ -161,14 +161,12 @@ def is_finite(solution):
 
 @contextmanager
 def no_warnings():
-    """A warning of NumPy's, which nobody asked for, is an error."""
     with warnings.catch_warnings():
         warnings.simplefilter("error", RuntimeWarning)
         yield
 
 
 def numbers_of(value):
-    """All floating-point numbers of nested plain data."""
     if isinstance(value, dict):
         value = list(value.values())
     if isinstance(value, list | tuple):

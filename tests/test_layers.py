@@ -46,7 +46,6 @@ def imports(name):
 
 
 def layer(name):
-    """The layer a module belongs to, or None."""
     parts = name.split(".")
     return parts[1] if parts[0] == "mgehl" and len(parts) > 1 and parts[1] in LAYERS else None
 

@@ -14,7 +14,6 @@ LINK = re.compile(r"\]\((tables/[^)]+)\)")
 
 
 def passages(text):
-    """Rows of tables, bullets and paragraphs: what is read in one go."""
     return [part for part in re.split(r"\n(?=\||- )|\n\n", text) if QUOTED.search(part)]
 
 

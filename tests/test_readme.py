@@ -27,7 +27,6 @@ SURFACE, OWN_LAWS, FRICTION = re.findall(r"```toml\n(.*?)```", CASES, flags=re.D
 
 
 def links():
-    """(Page, target) of every link and picture to a file of the repository."""
     for name, text in PAGES.items():
         for target in re.findall(r"\]\(([^)]+)\)", text):
             if not target.startswith("http"):
@@ -115,7 +114,6 @@ def test_commands_are_read_as_they_are_written(line):
 
 @pytest.fixture(scope="module")
 def place(tmp_path_factory):
-    """A directory with the first case's my.toml and the configurations."""
     path = tmp_path_factory.mktemp("readme")
     (path / "my.toml").write_text(FIRST_CASE)
     (path / "configs").symlink_to(ROOT / "configs")

@@ -71,7 +71,6 @@ def start(arguments, ranks=1):
 
 
 def end(process):
-    """(exit status, what mgehl itself said on stderr, line by line)."""
     _, err = process.communicate(timeout=120)
     return process.returncode, [line for line in err.splitlines() if line.startswith("mgehl: ")]
 
@@ -348,7 +347,6 @@ class TestFailingRank:
     )
 
     def run(self, tmp_path, what):
-        """(exit status, stderr, seconds) of a run in which rank 1 does `what`."""
         (tmp_path / "driver.py").write_text(self.DRIVER.format(what=what))
         words = [
             "mpiexec", "-n", "2", sys.executable, "driver.py", "run", *SMALL, "--quiet", "--out", "here",

@@ -395,7 +395,6 @@ def test_rough_bodies_make_no_oil(rough):
 
 
 def went_on(start, **keys):
-    """The ball in time from the end of another run."""
     named = {key.replace("__", "."): value for key, value in keys.items()}
     return mgehl.solve(mgehl.load(None, BALL | named), start=start)
 
@@ -483,8 +482,6 @@ def test_how_a_film_is_squeezed_does_not_hang_on_the_end_of_the_run():
 
 
 class StopAfter:
-    """Stops a run before its step of a number."""
-
     def __init__(self, steps):
         self.left = steps
 

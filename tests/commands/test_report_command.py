@@ -19,7 +19,6 @@ def finished(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
-    """Pages without pictures, which take the time."""
     monkeypatch.setattr("mgehl.output.report.run_report.pictures", lambda solution: {})
 
 

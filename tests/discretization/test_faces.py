@@ -20,7 +20,6 @@ MOTIONS = {"along x": (1.0, 0.0), "against x": (-1.0, 0.0), "at an angle": (0.6,
 
 
 def plain_fluid(P, H, rho, eps):
-    """A fluid with given density and mobility and no derivatives."""
     zero = np.zeros_like(P)
     return Fluid(P, H, H, rho, zero, eps, zero, zero)
 

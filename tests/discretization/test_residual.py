@@ -36,7 +36,6 @@ def central_differences(function, x, d):
 
 
 def assert_linearised(state, scheme, storage=None):
-    """A and B hold every derivative of the residual, and nothing else."""
     rows = state.rows
     linear = linearise(state.evaluation(scheme), rows, storage)
     for name, d, stencil in (("P", 1e-6, linear.A), ("H", 1e-7, linear.B)):
@@ -154,7 +153,6 @@ def rate(request, state):
 
 @pytest.fixture
 def storage(state, rate):
-    """Of a step that began elsewhere."""
     return Storage.begun(state.evaluation(P=0.9 * state.P, H=1.1 * state.H).fluid, rate)
 
 

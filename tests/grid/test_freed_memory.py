@@ -41,7 +41,6 @@ pytestmark = pytest.mark.skipif(not shared_memory.DIRECTORY.is_dir(), reason="fi
 
 @pytest.fixture
 def files(tmp_path, monkeypatch):
-    """Function: the files that are left where shared arrays had theirs."""
     monkeypatch.setattr(shared_memory, "DIRECTORY", tmp_path)
     return lambda: list(tmp_path.iterdir())
 

@@ -10,7 +10,6 @@ RANKS = (1, 2, 3, 7, 16, 20, 40, 600)
 
 
 def chain(lines, ranks):
-    """Ownerships from the finest grid to one of five lines."""
     return ownerships(lines, int(log2((lines - 1) / 4)) + 1, ranks)
 
 

@@ -63,8 +63,6 @@ def test_the_average_keeps_a_constant_everywhere_and_the_ends_of_lines(transfer)
 
 
 class TestPartitioned:
-    """A disc of contact in the film, a cavity behind it."""
-
     @pytest.fixture
     def status(self, transfer):
         X, Y = transfer.fine.X, transfer.fine.Y

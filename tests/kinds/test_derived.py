@@ -223,7 +223,6 @@ def test_a_dry_contact_has_bodies_and_no_motion():
      ({}, "beta 0.04 1/K and k 0.14 W/(m K) as is usual")],
 )  # fmt: skip
 def test_heat_of_the_inlet_goes_by_what_the_oil_tells(known, said):
-    """What it does not tell is as is usual, each number alone."""
     config = of({"motion.speed": 10.0} | {f"lubricant.{name}": value for name, value in known.items()})
     (words,) = heat_words(config, contact_from(config))
     assert said in words

@@ -17,7 +17,6 @@ X, Y = np.linspace(-2.0, 1.0, NX), np.linspace(-1.0, 3.0, NY)
 
 
 def values(x, y):
-    """Of no symmetry either, and no two nodes alike."""
     return 1000.0 * x + y
 
 

@@ -15,7 +15,6 @@ def central_difference(law, P, d=1e-6):
 
 
 def law_of(name, eta0):
-    """A viscosity law, by an alpha of 18/GPa where it has one."""
     law = VISCOSITY_LAWS[name]
     return law(eta0) if law is ConstantViscosity else law(eta0, 18e-9)
 

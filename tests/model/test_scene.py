@@ -127,7 +127,6 @@ def test_a_step_that_is_asked_for_is_cut_to_the_cells_that_a_film_bears(viscosit
 
 
 def loads_seen(load, end, step, speed=0.01):
-    """Loads in N at the ends of a run's steps, none longer than `step`."""
     found = scene({"contact.load": str(load), "time.end": end, "motion.speed": speed})
     pace, t, seen = Pace(found, Mesh(65, 65, (-2.0, 2.0), (-2.0, 2.0)), step), 0.0, []
     while t < found.end * (1.0 - 1e-9):

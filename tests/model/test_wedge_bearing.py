@@ -30,7 +30,6 @@ X, Y = np.linspace(4.0, 8.0, 9)[None, :], np.linspace(-2.0, 2.0, 9)[:, None]
 
 
 def solid_nodes(bearing):
-    """The nodes that are solid, (X, Y) in half millimetres."""
     solid = np.broadcast_to(bearing.solid(X, Y), (Y.size, X.size))
     return {(int(2 * X[0, i]), int(2 * Y[j, 0])) for j, i in np.argwhere(solid)}
 

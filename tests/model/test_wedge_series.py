@@ -22,7 +22,6 @@ both = pytest.mark.parametrize("bearing", [BLOCKED, OPEN], ids=["blocked", "open
     ids=["blocked", "open"],
 )
 def test_paper_wedge(bearing, pressures, load):
-    """Centre line at X = 22, 30 and 40 mm, and the load."""
     np.testing.assert_allclose(bearing.pressure([22.0, 30.0, 40.0]), pressures, rtol=0, atol=0.5e-6)
     assert bearing.load() == pytest.approx(load, abs=0.5e-4)
 
@@ -64,7 +63,6 @@ def test_narrow_bearing_is_short():
 
 @pytest.mark.parametrize("z", [0.1, 1.0, pi, 8.0, 40.0, 50.0, 300.0])
 def test_struve_difference(z):
-    """Against the Fourier integral, and D' against the difference of D."""
     D, slope = struve_difference(z)
     integral = quad(lambda t: (1.0 + t * t) ** -1.5, 0.0, np.inf, weight="sin", wvar=z, epsabs=1e-13)[0]
     assert D == pytest.approx(2.0 / (pi * z) * integral, abs=1e-12)

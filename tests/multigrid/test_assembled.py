@@ -10,7 +10,6 @@ from mgehl.solver.problem import State
 
 
 def rigid_rows(state):
-    """Of a gap that no pressure moves: that on solids is given."""
     return np.where(state.status == CONTACT, PRESSURE, rows_of(state.status))
 
 

@@ -36,7 +36,6 @@ def rows(problem, state, dP, dH0, step):
 
 
 def differences(problem, state, dP, dH0):
-    """Central differences of the residual and of the load deficit."""
     ahead, load_ahead = rows(problem, state, dP, dH0, STEP)
     behind, load_behind = rows(problem, state, dP, dH0, -STEP)
     return (ahead - behind) / (2 * STEP), (load_ahead - load_behind) / (2 * STEP)

@@ -26,7 +26,6 @@ from mgehl.version import VERSION
 
 
 def make_solution(H0):
-    """A `Solution` of a line contact, all of whose parts go by its H0."""
     tables = {"contact": {"kind": "line"}, "grid": {"nodes": 65, "x": [-2.0, 1.5]}}
     config = config_from_tables(tables | {"motion": {"speed": -H0}})
     contact = contact_from(config)
@@ -57,7 +56,6 @@ def put(directory, H0, force=False):
 
 
 def content(directory):
-    """{path: bytes, or where a link leads} of all that is in a directory."""
     found = {}
     for path in Path(directory).rglob("*"):
         if path.is_symlink() or not path.is_dir():

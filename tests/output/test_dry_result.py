@@ -15,8 +15,6 @@ TOLERANCE = 1e-8
 
 @pytest.fixture
 def settled(make_problem):
-    """Problem and outcome of the paper's ball; keywords are the grid's."""
-
     def run(**grid):
         problem = make_problem(**({"nodes": 65} | grid))
         guess = problem.contact.guessed_pressure(problem.grid.X, problem.grid.Y)

@@ -69,7 +69,6 @@ def _result(fields):
 
 
 def _largest(array):
-    """The node of an array's largest value that has four sides."""
     j, i = np.unravel_index(array[1:-1, 1:-1].argmax(), (NODES - 2, NODES - 2))
     return {"i": int(i) + 2, "j": int(j) + 2}
 

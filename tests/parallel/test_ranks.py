@@ -51,7 +51,6 @@ def pair(paper_contact, make_hierarchy):
 
 
 def lines(grid, whole):
-    """This rank's lines of a whole array that every rank has."""
     return np.ascontiguousarray(whole[grid.first : grid.last])
 
 
@@ -323,7 +322,6 @@ class TestCheckpoints:
         assert COMM.bcast(solution.rows and len(solution.rows)) == len(alone.rows)
 
     def stopped(self, config, comm, directory):
-        """Run until the last rank of all wants to stop."""
         asked = iter(range(100))
 
         def stop():

@@ -11,7 +11,6 @@ LINE = Mesh(21, 1, (-1.9, 1.3), (0.0, 0.0))
 
 
 def on(mesh, function):
-    """Values of a function of X and Y at the nodes, (ny, nx)."""
     Y = mesh.Y[:, None] if not mesh.is_line else np.zeros((1, 1))
     return function(mesh.X[None, :], Y) + 0.0 * Y
 

@@ -66,7 +66,6 @@ WAVE, AMPLITUDE = 2.0 * np.pi, 1e-3
 
 
 def first_wave(values, way):
-    """Complex amplitude of what has gone a `way`, over `AMPLITUDE`."""
     return np.fft.fft(values)[1] / (0.5 * len(values)) * np.exp(1j * WAVE * way) / AMPLITUDE
 
 

@@ -21,7 +21,6 @@ def tables(speed):
 
 @pytest.fixture(scope="module")
 def dry():
-    """Pressure of the same bodies without a fluid, (65, 65)."""
     bare = tables(0.0)
     del bare["lubricant"], bare["motion"], bare["solver"], bare["contact"]["boundary_film"]
     bare["discretization"] = {"contact_model": "dry"}
@@ -30,7 +29,6 @@ def dry():
 
 @pytest.fixture(scope="module")
 def slower():
-    """Solutions at ever lower speeds, each for itself."""
     return [solved(tables(speed)) for speed in SPEEDS]
 
 

@@ -74,7 +74,6 @@ def films(contact, largest, mesh, end):
 
 
 def half_width(contact, wide):
-    """`wide` times sqrt(2 R h), in units of X."""
     return wide * np.sqrt(2.0 * R * FILM) / contact.x_scale
 
 

@@ -19,7 +19,6 @@ class TestBothBranches:
 
     @pytest.fixture(scope="class")
     def points(self, tmp_path_factory):
-        """129 nodes at 30 mm/s, where the grid has two solutions."""
         asked = StudyRecord("transition", (), 1, {})
         study = Study(tmp_path_factory.mktemp("branches"), MPI.COMM_SELF, asked, speak=False)
         down = Branch(study, transition.case(129), "down").walk([0.1, 0.055, self.SPEED])

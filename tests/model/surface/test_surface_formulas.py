@@ -109,8 +109,6 @@ def test_surfaces_add_up():
 
 
 class Plain(Surface):
-    """Heights by a function, of which nothing is known."""
-
     def __init__(self, function):
         self._function = function
 

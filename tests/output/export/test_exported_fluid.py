@@ -10,7 +10,6 @@ from mgehl.output.export.export import export
 
 @pytest.fixture
 def solution():
-    """With fields that no two nodes share."""
     solution = make_solution("point")
     random = np.random.default_rng(3)
     fields = solution.fields

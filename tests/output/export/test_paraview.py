@@ -20,7 +20,6 @@ def values_of(solution):
 
 
 def places_of(solution):
-    """Position of every node, x fastest, as VTK has it."""
     x, y = np.meshgrid(solution.x, solution.y)
     return np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
 

@@ -19,7 +19,6 @@ def told(speed, solids):
 
 
 def shaded(figure):
-    """Ends along x of what is grey in each panel."""
     return [tuple(patch.get_extents().transformed(axis.transData.inverted()).intervalx)
             for axis in figure.axes for patch in axis.patches]  # fmt: skip
 

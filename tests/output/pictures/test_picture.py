@@ -12,7 +12,6 @@ from mgehl.output.pictures.figures import figures, run_picture
 
 
 def image_of(solution):
-    """Its dots, (height, width, 3); without any warning."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         return plt.imread(io.BytesIO(run_picture(solution)))[..., :3]

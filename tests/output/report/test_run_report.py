@@ -67,12 +67,10 @@ class Reader(HTMLParser):
 
     @property
     def highlights(self):
-        """Names and numbers on top of the page."""
         found = self.text.split("\nWhat was solved\n")[0].splitlines()[5:]
         return dict(zip(found[::2], found[1::2], strict=True))
 
     def rows(self, caption):
-        """First cell: the others, of a table."""
         return {row[0]: row[1:] for row in self.tables[caption]}
 
 
