@@ -145,9 +145,16 @@ def _doubts(heights):
     count, point = heights.outstanding
     if count:
         stand = "1 point stands" if count == 1 else f"{count} points stand"
+        means = "such a point may bear all of the load" if point.height > 0.0 else "a missing value?"
         yield (
             f"{stand} out of all neighbours, row {point.row}, column {point.column} most, by "
-            f"{1e6 * point.height:.4g} um: such a point may bear all of the load"
+            f"{1e6 * point.height:.4g} um: {means}"
+        )
+    name, lines, apart = heights.jumped
+    if lines:
+        yield (
+            f"{name} {', '.join(map(str, lines))}: the whole {name} lies {1e9 * apart:.4g} nm off its "
+            "neighbours, as where a scan line of an instrument jumps"
         )
 
 

@@ -15,6 +15,9 @@ BEYOND = 4.0
 LARGE = 99.0
 """Per cent of the steps that are smaller than a large one."""
 
+MOST_LINES = 90.0
+"""Per cent of the lines whose steps are usual."""
+
 FAR, SEVERAL = 0.25, 3
 """Distance of a height from all others, over the spread of these, from which on it is hardly one that so
 many points share."""
@@ -72,6 +75,20 @@ def outstanding(z, step):
     usual = np.percentile(np.abs(np.concatenate([np.diff(z, axis=k).ravel() for k in (0, 1)])), LARGE)
     found = np.abs(over) > max(BEYOND * usual, STEEP * step)
     return int(found.sum()), _point(over, np.abs(over).argmax())
+
+
+def jumped(z):
+    """("row" or "column", numbers, m) of lines of points that lie as a whole above or below both of their
+    neighbours by far more than lines usually differ, as an instrument's scan lines do, and the most of them
+    in m. Many such lines are a texture: none is told."""
+    for lines, name in ((z, "row"), (z.T, "column")):
+        steps = np.diff(np.median(lines, axis=1))
+        apart = np.where(steps[:-1] * steps[1:] < 0.0, np.minimum(*np.abs((steps[:-1], steps[1:]))), 0.0)
+        usual = np.percentile(np.abs(steps), MOST_LINES) if steps.size > 1 else 0.0
+        found = np.flatnonzero(apart > BEYOND * usual)
+        if 0 < found.size <= SEVERAL and usual:
+            return name, [int(line) + 2 for line in found], float(apart.max())
+    return "", [], 0.0
 
 
 def repeated(z):

@@ -94,6 +94,11 @@ class Heights:
         """As `doubts.outstanding`."""
         return doubts.outstanding(self.own_points, min(self.dx, self.dy))
 
+    @cached_property
+    def jumped(self):
+        """As `doubts.jumped`."""
+        return doubts.jumped(self.own_points)
+
     @property
     def size(self):
         """Distance of the outermost points along x and along y, in m."""

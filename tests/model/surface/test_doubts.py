@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mgehl.model.surface import Measured, Preparation
-from mgehl.model.surface.doubts import MOST_HOLES, harmonic, outstanding, repeated
+from mgehl.model.surface.doubts import MOST_HOLES, harmonic, jumped, outstanding, repeated
 from mgehl.model.surface.files import read_map
 from mgehl.model.surface.map import SurfaceFileError
 
@@ -71,6 +71,14 @@ def test_a_pixel_of_20_um_stands_out_and_a_good_map_does_not(z):
         count, point = outstanding(wrong, STEP)
         assert (count, point.row, point.column) == (1, row + 1, column + 1)
         assert point.height == pytest.approx(height, rel=0.2)
+
+
+@pytest.mark.parametrize("z", FORMS.values(), ids=FORMS)
+def test_a_scan_line_that_jumps_is_told_and_a_texture_is_not(z):
+    assert jumped(z)[1] == []
+    wrong = z.copy()
+    wrong[11] += 2e-6
+    assert jumped(wrong)[:2] == ("row", [12]) and jumped(wrong.T)[:2] == ("column", [12])
 
 
 def test_a_point_of_a_profile_stands_out():
