@@ -154,7 +154,7 @@ def _doubts(heights):
     if lines:
         yield (
             f"{name} {', '.join(map(str, lines))}: the whole {name} lies {1e9 * apart:.4g} nm off its "
-            "neighbours, as where a scan line of an instrument jumps"
+            "neighbours: a scan line that jumped, or a scratch one point wide?"
         )
 
 
