@@ -16,7 +16,7 @@ def mixed_lines(mixed):
         ratio = "no roughness is within the contact"
     return [
         f"{ratio}: contact carries {_shares(mixed)}",
-        _real_contact(mixed),
+        *_real_contact(mixed),
         *_carried_by_solids(mixed),
         *_mean_gaps(mixed),
         f"film that is not torn, within the {mixed.hertz_region}: mean {_known(mixed.mean_film_nm)} nm, "
@@ -27,9 +27,9 @@ def mixed_lines(mixed):
 
 def _real_contact(mixed):
     if not mixed.patches:
-        return "no node is in contact"
+        return
     unit = mixed.area_unit.replace("µm²", "um^2")
-    return (
+    yield (
         f"real contact area {1e12 * mixed.contact_area_m2:.4g} {unit}, "
         f"{100 * mixed.contact_area_over_hertz:.2f} % of the Hertz area, in {_counted(mixed.patches)}, "
         f"the largest {1e12 * mixed.largest_patch_m2:.4g} {unit}"
