@@ -34,9 +34,7 @@ def begin(task):
 
 def _as_asked(task):
     contact, settings = task.contact, task.settings
-    if recipe_of(settings, contact).peaks == TOUCHING:
-        return nested_iteration(task)
-    if settings.scheme.face_mobility not in FOLDING:
+    if settings.scheme.face_mobility not in FOLDING or recipe_of(settings, contact).peaks == TOUCHING:
         return nested_iteration(replace(task, settings=on_mesh(settings, contact, task.mesh)))
     if settings.start == IN_CONTACT:
         return nested_iteration(task.but(newton=settings.newton.squeezed()))
