@@ -96,8 +96,8 @@ class Heights:
 
     @cached_property
     def jumped(self):
-        """As `doubts.jumped`."""
-        return doubts.jumped(self.own_points)
+        """As `doubts.jumped`; a profile's points are no lines."""
+        return ("", [], 0.0) if self.is_profile else doubts.jumped(self.points)
 
     @property
     def size(self):
