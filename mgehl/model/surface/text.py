@@ -35,6 +35,9 @@ NAMES = {
 SIZES = "x", "y", "pixel"
 """What headings tell of a matrix."""
 
+NO_LENGTHS = {"V", "mV", "deg", "rad", "Hz", "nA", "pA", "N", "nN"}
+"""Units of what instruments map besides heights."""
+
 _BEGIN = r"(?:^|[^\w ]) *(?:(?:scan|image|map) +)?"
 """What stands before a size: a "max height" is none."""
 
@@ -82,7 +85,9 @@ def _with_heading(found, told):
         unit, unit_y = (UNITS.get(word or _unit(told, "length unit")) for word in (unit, unit_y))
         dy *= unit_y / unit if unit and unit_y else 1.0
         known = {"dx": dx / columns, "dy": dy / rows, "position_unit": unit}
-    unit = told["factor"][0] if "factor" in told else UNITS.get(_unit(told, "unit"))
+    if (word := _unit(told, "unit")) in NO_LENGTHS:
+        raise found.error(f"its heading tells values in {word}, which are no heights")
+    unit = told["factor"][0] if "factor" in told else UNITS.get(word)
     return found.told(height_unit=unit, **known)
 
 

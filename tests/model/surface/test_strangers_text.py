@@ -154,6 +154,7 @@ REFUSED = {
     "pixels of another size": (
         f"# Pixel size: 1 um\n# Width: 4 um\n# Height: 9 um\n{matrix(';')}",
         "its heading tells a size along y of 9e-06 m, but its pixels make 4e-06 m"),
+    "no heights": ("# Value units: V\n1 2 3 4\n4 5 6 7\n1 2 3 4\n", "in V, which are no heights"),
     "a line that is missing": (
         "\n".join(f"{a} {b} 1" for b in (0, 1, 2, 3, 5) for a in range(5)),
         "its spacing along y is not equal: 2 from y = 3 to 5"),
