@@ -216,8 +216,8 @@ def _contact(result, verbose):
     contact, inequality, other = result.contact, result.pressure_inequality, result.other_inequality
     largest, kept = contact.largest_gap_nm, contact.kept_gap_nm
     gap = f"largest gap {largest:.1e} nm"
-    if kept and contact.nodes:  # of bodies that layers keep apart
-        gap = f"largest gap {largest:.4g} nm, the boundary film is {kept:.4g} nm"
+    if kept and contact.nodes:  # layers, or the threshold of smooth bodies
+        gap = f"largest gap {largest:.4g} nm, contact keeps {kept:.4g} nm"
     yield f"contact: {_size(contact)}" + (f"; {_where(contact)}; {gap}" if verbose else "")
     if verbose or inequality.violations:
         broken = f"{inequality.violations} of {inequality.checked}"
