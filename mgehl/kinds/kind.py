@@ -96,6 +96,15 @@ def pressure_unit(GPa):
     return (1e6, "kPa") if GPa < 1e-4 else (1e3, "MPa") if GPa < 0.1 else (1.0, "GPa")
 
 
+LONG_FILM = 1e-5
+"""m from which on a film is told in um."""
+
+
+def film_unit(film):
+    """What turns a film in m into its unit, and the unit."""
+    return (1e6, "um") if film >= LONG_FILM else (1e9, "nm")
+
+
 def kept_together(text):
     """The text with spaces at which no line is broken."""
     return text.replace(" ", "\u00a0")

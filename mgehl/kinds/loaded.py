@@ -11,7 +11,7 @@ from mgehl.kinds.bodies import roughness
 from mgehl.kinds.domain_in_time import on_all_sides, reverses
 from mgehl.kinds.friction import check_friction, friction_from, thinning_words
 from mgehl.kinds.heat import check_factor, factor_words, heat_words, heated, solids_from
-from mgehl.kinds.kind import Effort, Kind, kept_together, pressure_unit
+from mgehl.kinds.kind import Effort, Kind, film_unit, kept_together, pressure_unit
 from mgehl.kinds.lubricant import check_laws, lubricant_from
 from mgehl.model.films import formula_of
 from mgehl.model.own_laws import OwnDensity
@@ -21,11 +21,6 @@ from mgehl.model.starvation import Starvation
 RELAXATION = Effort(
     2e4, 1e-7, 1e-3, 500.0, "the relaxation has one a sweep, up to relaxation.max_sweeps"
 )  # fmt: skip
-
-
-LONG_FILM = 1e-5
-"""Film in m from which on films are told in um."""
-
 
 BANDS, BANDS_WORDS = 10.0, "bands 2 to 23 more"
 """Convolutions that coarser grids take for the bands about a film."""
@@ -179,7 +174,7 @@ class LoadedKind(Kind):
 def _films(config, contact):
     """Films of formulas and what they assume, lambda, heat."""
     compared = contact.unheated.compared
-    unit, scale = ("um", 1e6) if max(compared.values()) >= LONG_FILM else ("nm", 1e9)
+    scale, unit = film_unit(max(compared.values()))
     shown = "   ".join(f"{name.replace('_', ' ')} {scale * film:.4g}" for name, film in compared.items())
     yield f"films, {unit}  {shown}{time.of_formulas(config)}"
     heads = {

@@ -3,7 +3,7 @@
 import re
 from math import ceil, floor, isfinite, log10
 
-from mgehl.kinds.kind import pressure_unit
+from mgehl.kinds.kind import film_unit, pressure_unit
 
 MOST_DECIMALS = 9
 """Most decimals of nanometres: far below an atom, and within what a double holds."""
@@ -15,10 +15,6 @@ LARGE = 1e7
 
 SMALL = 1e-7
 """The same below this: of a coefficient."""
-
-
-THICK = 1e4
-"""nm from which on a film is told in um."""
 
 
 def is_number(text):
@@ -50,7 +46,8 @@ def with_band(value, half_width=None):
 
 def film_words(nm, half_width=None):
     """A film, with its band if there is one."""
-    factor, unit = (1e-3, "um") if nm >= THICK else (1.0, "nm")
+    factor, unit = film_unit(1e-9 * nm)
+    factor *= 1e-9
     return f"{with_band(factor * nm, half_width and factor * half_width)} {unit}"
 
 

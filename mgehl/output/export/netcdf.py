@@ -78,6 +78,7 @@ def _scalars(solution):
 
 
 def _driving(contact, solution):
+    """The same of load, speed, direction and groups; `contact` is that of the end."""
     last = solution.last
     speed = 1e-3 * last["speed_mm_s"] if last else contact.speed
     if not contact.is_loaded:

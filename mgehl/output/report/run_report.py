@@ -89,7 +89,7 @@ def odd(config, contact, goes_on):
     try:
         yield from implausible(config, contact, goes_on)
     except UserError as error:
-        yield f"no more could be looked at: {error}"
+        yield f"the rest could not be looked at: {error}"
 
 
 def verdict(result):
