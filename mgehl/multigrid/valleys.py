@@ -18,7 +18,7 @@ PATIENCE, OF_NODES = 15, 26_000
 """Relaxations of one system by lines, after which nearby nodes are solved at once. An LU of so many nodes
 costs as much as so many relaxations, and n^1.5 on others: at most twice what was needed is paid."""
 
-MOST_AT_ONCE = 50
+MOST_AT_ONCE = 150
 """Relaxations of one linear system with nearby nodes at once; then it is finished by lines, and so are all
 later ones: in soft bodies what a valley couples to is not near."""
 

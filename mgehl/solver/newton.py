@@ -12,6 +12,7 @@ from petsc4py import PETSc
 from mgehl.discretization.status import CONTACT
 from mgehl.grid.events import linear_solve
 from mgehl.solver.cavitation import relax_cavitation_set
+from mgehl.solver.elimination import Elimination
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.judge import (
     IN_TURN_TOLERANCE,
@@ -46,6 +47,7 @@ class Newton(PythonSnes):
         self._monitor = monitor or (lambda cycle: None)
         self._load_scale = multigrid.jacobian.load_scale
         self._partition = Partition(problem)
+        self._elimination = Elimination(problem, settings) if settings.eliminates else None
         self._in_turn = False
 
     def run(self, state, journal=NOTHING_KEPT, tolerance=None):
@@ -184,6 +186,8 @@ class Newton(PythonSnes):
         state.H = problem.gap(state.P, state.H0) if H is None else H
         self._partition.follow_gap(state, changes, self._in_turn)
         position.step = replace(position.step, length=length)
+        if self._elimination:
+            self._elimination.of(state, changes, self._in_turn)
 
     @property
     def _falls_as_oil_flows(self):

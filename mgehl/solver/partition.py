@@ -47,6 +47,14 @@ class Changes(Kept):
     def total(self):
         return self.cavitated + self.filled + self.entered + self.released
 
+    def compare(self, grid, before, after):
+        """Add the nodes whose status has become another one (collective)."""
+        other = before != after
+        self.cavitated += grid.count(other & (after == CAVITATED))
+        self.filled += grid.count(other & (before == CAVITATED) & (after == LUBRICATED))
+        self.entered += grid.count(other & (after == CONTACT))
+        self.released += grid.count(other & (before == CONTACT))
+
 
 @dataclass(frozen=True)
 class Contradiction(Kept):

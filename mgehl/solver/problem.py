@@ -87,7 +87,7 @@ class Problem:
             fills = (state.status == CAVITATED) & (evaluation.inflow > 0.0)
             state.filling = np.where(fills, OVERFULL, 1.0)
             return evaluation
-        marched = (state.status == CAVITATED) & ~self.feeding(state.status)
+        marched = self.marched(state.status)
         if not self.grid.count(marched):
             return evaluation
         along, across = evaluation.carried_by_full_gaps()
@@ -96,6 +96,10 @@ class Problem:
         rise = self._in_order(missing_fillings, marched, evaluation.inflow, *leaving, kept)
         state.filling = np.clip(state.filling + rise, 0.0, OVERFULL)
         return evaluation.filled(self.grid.halo(state.filling))
+
+    def marched(self, status):
+        """Cavities whose content follows from what flows into them, (lines, nx)."""
+        return (status == CAVITATED) & ~self.feeding(status)
 
     def _closed(self, status):
         """Nodes that nothing is carried into, (lines, nx)."""
@@ -106,8 +110,11 @@ class Problem:
         """Cavities whose content reaches film or contact, (lines, nx)."""
         if not self.scheme.contact_law.has_contact or self.scheme.motion == AT_REST:
             return np.zeros(status.shape, dtype=bool)
-        receives = (status == LUBRICATED) | (status == CONTACT) & ~self._closed(status)
-        return self._in_order(feeding, status == CAVITATED, receives, self._along_y)
+        return self._in_order(feeding, status == CAVITATED, self._receives(status), self._along_y)
+
+    def _receives(self, status):
+        """Nodes into which the contents of cavities are carried, (lines, nx)."""
+        return (status == LUBRICATED) | (status == CONTACT) & ~self._closed(status)
 
     @property
     def _along_y(self):

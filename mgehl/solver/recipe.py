@@ -124,7 +124,9 @@ def recipe_in_time(settings, contact):
     recipe = recipe_of(settings, contact, A_STATE)
     limits = {"max_work": 10**9, "max_steps": STEPS_IN_TIME, "idle_steps": STEPS_IN_TIME}
     limits |= {"by_reduced_pressure": recipe.scheme.face_mobility in MONOTONE}
-    newton = replace(recipe.newton, squeeze=0.0, in_time=True, certain=PASSING_TOLERANCE, **limits)
+    newton = replace(
+        recipe.newton, squeeze=0.0, eliminates=False, in_time=True, certain=PASSING_TOLERANCE, **limits
+    )
     cycle = replace(recipe.cycle, direct=max(recipe.cycle.direct, DIRECT_IN_TIME))
     return replace(recipe, scheme=replace(recipe.scheme, motion=(0.0, 0.0)), newton=newton, cycle=cycle)
 
@@ -171,6 +173,7 @@ def _newton(settings, contact, peaks, squeezed):
         over_largest=rough,
         by_film=by_film,
         certain=max(asked.certain, CERTAIN if by_film else 0.0),
+        eliminates=peaks == TOUCHING and not contact.is_line,
         by_reduced_pressure=peaks != TOUCHING and scheme.face_mobility in MONOTONE,
     )
 

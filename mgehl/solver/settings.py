@@ -48,6 +48,8 @@ class NewtonSettings:
     by_reduced_pressure: bool = False
     """Whether pressures fall as the viscosity lets them (`step_length.as_oil_flows`): in time in every
     step, else after one that gained nothing. Of peaks that touch that finds as many as it loses."""
+    eliminates: bool = False
+    """Whether few nodes that make up most of the residual are solved by themselves between two steps."""
     in_time: bool = False
     """Whether the state is one of many, near the one before: it is solved no further than is asked."""
 
