@@ -90,7 +90,8 @@ def _steps(newton):
     change = f"{newton.max_pressure_step:.2g} of {scale}{film}"
     end = f"{newton.idle_steps} in vain" if newton.idle_steps < newton.max_steps else f"{newton.max_steps}"
     falls = "; pressures fall as the oil flows after one in vain" if newton.by_reduced_pressure else ""
-    return f"{kind}; one changes at most {change}{falls}; {end} end it"
+    few = "; few nodes that hold up all others are solved by themselves" if newton.eliminates else ""
+    return f"{kind}; one changes at most {change}{falls}{few}; {end} end it"
 
 
 def plain(recipe):
@@ -113,6 +114,6 @@ def plain(recipe):
 
 NEWTON = (
     "tolerance", "certain", "squeeze", "idle_steps", "max_pressure_step", "over_largest", "by_film",
-    "by_reduced_pressure",
+    "by_reduced_pressure", "eliminates",
 )  # fmt: skip
 """Newton's rules that a recipe has."""

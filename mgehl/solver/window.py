@@ -26,15 +26,10 @@ from mgehl.solver.layers import by_reduced_pressure
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import Problem, State
 from mgehl.solver.squeeze import squeeze_rates
+from mgehl.solver.step_length import LARGEST_CHANGE, SMALLEST
 
 RING = 3
 """Nodes around the free ones that stand still: flows look two nodes far, and one more node is judged."""
-
-MOST_OF_A_FILM, MOST_OF_A_PRESSURE = 0.5, 0.3
-"""Change by a step of any film, over itself, and of any pressure, over the largest one."""
-
-SMALLEST = 1e-300
-"""So that nothing is divided by zero."""
 
 
 class _Alone(Grid):
@@ -104,7 +99,7 @@ class Window(Problem):
         c, dp, contact = correction
         old, new, changes = at.state, at.state.copy(), Changes()
         dP = np.where(self.feeding(old.status), 0.0, c)
-        length = self._length(old, dP)
+        length = self._length(old, dP, settings.max_pressure_step)
         new.P -= length * dP
         new.filling -= length * (c - dP)
         fluid = at.evaluation.fluid
@@ -120,12 +115,13 @@ class Window(Problem):
     def _deflection(self, P):
         return (self._K @ P.ravel()).reshape(P.shape)
 
-    def _length(self, state, dP):
-        """The part of a step that is taken."""
+    def _length(self, state, dP, most):
+        """The part of a step that is taken: no film changes by more than `LARGEST_CHANGE` of itself, no
+        pressure by more than `most` of the largest."""
         film = self.free & (state.status == LUBRICATED) & (state.H > self.scheme.contact_law.contact_gap)
         opens = np.max(np.abs(self._deflection(dP)[film]) / state.H[film], initial=SMALLEST)
         presses = max(np.max(np.abs(dP)), SMALLEST) / max(1.0, np.max(state.P))
-        return min(1.0, MOST_OF_A_FILM / opens, MOST_OF_A_PRESSURE / presses)
+        return min(1.0, LARGEST_CHANGE / opens, most / presses)
 
     def _hold(self, new, old):
         """What is not free stays as it was, in place."""
