@@ -100,14 +100,18 @@ def allowed(tolerance, smallest, rounding):
 def how_sets_change(position, by_film):
     """The `SetsChange` around the next step from a position, by what the last steps gained. `by_film` says
     whether contact closes continuously."""
-    way = sum(cycle.step_length for cycle in since_lowered(position))
-    if by_film and way >= IDLE_CIRCLE:
+    if by_film and way_in_vain(position) >= IDLE_CIRCLE:
         return SetsChange.IN_TURN
     last = [cycle.residual for cycle in position.cycles[-3:]]
     gained_nothing = len(last) == 3 and min(last[1:]) > STUCK * last[0]
     if gained_nothing:
         return SetsChange.AT_ONCE
     return SetsChange.AT_REST
+
+
+def way_in_vain(position):
+    """Steps since the residual was last clearly lower than ever before, a shortened one by its length."""
+    return sum(cycle.step_length for cycle in since_lowered(position))
 
 
 def since_lowered(position):

@@ -15,6 +15,7 @@ from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.elimination import Elimination
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.judge import (
+    IDLE_CIRCLE,
     IN_TURN_TOLERANCE,
     UNSOLVED,
     SetsChange,
@@ -23,6 +24,7 @@ from mgehl.solver.judge import (
     judge_system,
     judge_work,
     since_lowered,
+    way_in_vain,
 )
 from mgehl.solver.layers import FluidInLayers
 from mgehl.solver.outcome import Cycle, Outcome
@@ -47,7 +49,7 @@ class Newton(PythonSnes):
         self._monitor = monitor or (lambda cycle: None)
         self._load_scale = multigrid.jacobian.load_scale
         self._partition = Partition(problem)
-        self._elimination = Elimination(problem, settings) if settings.eliminates else None
+        self._elimination = Elimination(problem, settings)
         self._in_turn = False
 
     def run(self, state, journal=NOTHING_KEPT, tolerance=None):
@@ -186,8 +188,14 @@ class Newton(PythonSnes):
         state.H = problem.gap(state.P, state.H0) if H is None else H
         self._partition.follow_gap(state, changes, self._in_turn)
         position.step = replace(position.step, length=length)
-        if self._elimination:
+        if self._eliminates:
             self._elimination.of(state, changes, self._in_turn)
+
+    @property
+    def _eliminates(self):
+        """Whether few nodes are solved by themselves after this step. They and the steps of all may go
+        round: of sixteen steps in vain the last eight go without."""
+        return self._settings.eliminates and way_in_vain(self._position) // IDLE_CIRCLE % 2 == 0
 
     @property
     def _falls_as_oil_flows(self):
