@@ -138,8 +138,6 @@ def test_wedge_of_the_repository(name, tmp_path):
     assert solid.any() == ("pillar" in name)
     np.testing.assert_array_equal(np.array(P)[~solid], middle[int(blocked) :][~solid])
     assert not middle[int(blocked) :][solid].any()
-    iterations = sum(int(row["linear_iterations"]) for row in rows_of(here / "history.csv"))
-    assert iterations == read["linear_iterations"] > 0
     assert load_config(here / "configuration.toml") == load_config(CONFIGS / f"{name}.toml")
 
 

@@ -12,10 +12,7 @@ from mgehl.model.text_table import FileError, read_table
         ("0,01;950\n0,02;1.050\n", "line 1 has '0,01', line 2 '1.050': which is the decimal mark?"),
         ('0,"1,000"\n1,"1,050"\n', "line 1: '1,000' may be 1.000 or 1000"),
         ("0\t2\u00a0474,9\n1\t2\u00a0475,1\n", "line 1, column 2: '2\\xa0474,9' is no number"),
-        (
-            "F [N];v\n500;1\n1.000;1\n2.000;1\n",
-            "line 3: '1.000' may be 1.000 or 1000: write 1000",
-        ),
+        ("F [N];v\n500;1\n1.000;1\n2.000;1\n", "line 3: '1.000' may be 1.000 or 1000: write 1000"),
         (";;1,050\n;1;950\n", "line 1: '1,050' may be"),
         (";".join(["975", "1,030"] * 6) + "\n" + ";".join(["1,012"] * 12), "line 1: '1,030' may be"),
     ],

@@ -5,13 +5,7 @@ from mgehl.config import config_from_tables, load_config
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.kinds.time import scene_of
-from mgehl.output.resolution import (
-    domain_words,
-    film_lost,
-    load_beyond,
-    resolution,
-    resolving_nodes,
-)
+from mgehl.output.resolution import domain_words, film_lost, load_beyond, resolution, resolving_nodes
 
 CASE = {
     "contact": {"load": 250.0, "radius_x": 10e-3, "radius_y": 15e-3}, "motion": {"speed": 3.0},

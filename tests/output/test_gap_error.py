@@ -4,10 +4,7 @@ from types import SimpleNamespace
 import pytest
 from contacts import solved
 
-from mgehl.output.gap_error import (
-    from_grids,
-    why_no_band,
-)
+from mgehl.output.gap_error import from_grids, why_no_band
 from mgehl.solver.gaps import GridGap
 
 WAVY = {

@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 from petsc4py import PETSc
 
-from mgehl.solver.judge import (
-    ROUNDED,
-    STALLS,
-    judge,
-    judge_system,
-)
+from mgehl.solver.judge import ROUNDED, STALLS, judge, judge_system
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import RESTLESS, Changes, Partition
 from mgehl.solver.position import Position
@@ -53,11 +48,7 @@ VERDICTS = {
     "nearly unsolved": ([1e-3], {"stalls": STALLS - 1}, ""),
     "idle": (IDLE, {}, f"residual 9.5e-01 after 7 steps: the last {IDLE_STEPS} did not lower it"),
     "nearly idle": (IDLE[:-1], {}, ""),
-    "rounding beside a thick film": (
-        (ROUNDED + 1) * [2e-8],
-        {"film": 67.0},
-        "residual, load and sets settled",
-    ),
+    "rounding by a thick film": ((ROUNDED + 1) * [2e-8], {"film": 67.0}, "residual, load and sets settled"),
     "not yet rounding": (ROUNDED * [2e-8], {"film": 67.0}, ""),
     "more than rounding": ((ROUNDED + 1) * [2e-8], {"film": 1.9}, ""),
     "falls slowly": ([0.98**k for k in range(40)], {}, ""),

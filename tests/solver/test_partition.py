@@ -3,7 +3,6 @@ from functools import partial
 import numpy as np
 import pytest
 
-import mgehl
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, UnifiedEquations
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
@@ -204,12 +203,3 @@ def test_neighbours_with_wrong_signs_change_at_once_or_in_turn(
     if rule == "cut_tension":
         assert state.P[4, 2:5].tolist() == ([-0.1, 0.0, -0.2] if in_turn else 3 * [0.0])
         assert state.P[2, 7] == 0.0
-
-
-def test_a_ball_whose_sets_went_in_a_circle_is_found():
-    """In a valley that oil hardly leaves, several nodes were torn at once, and filled again, for ever."""
-    asked = {"grid.nodes": 65, "motion.speed": 2.73e-6, "contact.boundary_film": 0.0}
-    limits = {"solver.error": False, "solver.max_work": 1000.0}
-    result = mgehl.solve(mgehl.load("configs/rough.toml", asked | limits)).result
-    assert result.converged
-    assert result.mass.largest_node < 1e-8 * result.mass.enters

@@ -11,7 +11,7 @@ from mgehl.config import config_from_tables
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.kinds import case_of, contact_from
 from mgehl.solver import beginning, recipe
-from mgehl.solver.beginning import COVERED, NOR, begin, begin_thick
+from mgehl.solver.beginning import NOR, begin, begin_thick
 from mgehl.solver.from_config import set_up
 from mgehl.solver.gaps import gaps
 from mgehl.solver.nested import nested_iteration
@@ -83,15 +83,6 @@ class TestFromAThickFilm:
         parts = set_up(case_of(config))
         hierarchy = in_the_end(Hierarchy.destroy, parts.hierarchy(MPI.COMM_SELF))
         return Task(hierarchy, contact_from(config), parts.settings)
-
-    def test_the_speed_falls_from_a_covering_film_to_the_contact_s_own(self, task):
-        contact, told = task.contact, []
-        tell = lambda level, cycle: told.append(level.speed)  # noqa: E731
-        problem, outcome = begin_thick(replace(task, monitor=tell))
-        assert outcome.converged and problem.contact.speed == contact.speed == told[-1]
-        thickest = contact.at_speed(max(told)).expected_film
-        assert thickest >= COVERED * contact.roughness > contact.expected_film
-        assert np.all(np.diff(told) <= 0.0)
 
     def test_all_ways_lead_to_the_same_answer(self, task):
         ways = begin_thick, begin, lambda task: nested_iteration(task.but(start=DRY))

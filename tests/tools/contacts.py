@@ -67,6 +67,12 @@ def soft(kind, M, L, ratio=1.0):
     }  # fmt: skip
 
 
+BALLS = (
+    (5.0, 5.0), (2.0, 4.0), (3.0, 2.0), (8.0, 3.0), (12.0, 8.0), (20.0, 10.0), (60.0, 2.0), (200.0, 14.0),
+    (1000.0, 6.0), (5000.0, 10.0),
+)  # fmt: skip
+"""M, L."""
+
 ON_TWICE_THE_DOMAIN = {
     "my.toml, 0.4 m/s": merged(MY_CASE, {"motion": {"speed": 0.4}}),
     "my.toml, 3 m/s": merged(MY_CASE, {"motion": {"speed": 3.0}}),
@@ -74,18 +80,9 @@ ON_TWICE_THE_DOMAIN = {
         MY_CASE, {"motion": {"speed": 3.0}, "lubricant": {"viscosity_law": "roelands"}}
     ),
     "ball bearing": BALL_BEARING,
-    "M 5, L 5": moes(5.0, 5.0),
+    **{f"M {M:g}, L {L:g}": moes(M, L) for M, L in BALLS},
     "M 5, L 5, fewer nodes": moes(5.0, 5.0),
-    "M 2, L 4": moes(2.0, 4.0),
-    "M 3, L 2": moes(3.0, 2.0),
     "M 5, L 5, 10:1": moes(5.0, 5.0, radius_x=5e-3, radius_y=50e-3),
-    "M 8, L 3": moes(8.0, 3.0),
-    "M 12, L 8": moes(12.0, 8.0),
-    "M 20, L 10": moes(20.0, 10.0),
-    "M 60, L 2": moes(60.0, 2.0),
-    "M 200, L 14": moes(200.0, 14.0),
-    "M 1000, L 6": moes(1000.0, 6.0),
-    "M 5000, L 10": moes(5000.0, 10.0),
     "M 100, L 8, 1:4": moes(100.0, 8.0, radius_x=20e-3, radius_y=5e-3),
     "M 100, L 8, 8:1": moes(100.0, 8.0, radius_x=5e-3, radius_y=40e-3),
     "ball at 45 degrees": {"motion": {"speed": 1.0, "angle": 45.0}},
