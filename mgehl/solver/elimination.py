@@ -13,7 +13,6 @@ import numpy as np
 from scipy.ndimage import find_objects, label, maximum_filter
 
 from mgehl.discretization.influence import influence_coefficients
-from mgehl.discretization.status import CONTACT
 from mgehl.solver.partition import Changes, Partition
 from mgehl.solver.problem import State
 from mgehl.solver.window import RING, Window
@@ -77,11 +76,8 @@ class Elimination:
     def _left(self, state):
         """The size of a state's residual, (lines, nx), with the flow under contact."""
         problem, state = self._problem, state.copy()
-        evaluation = problem.march_contents(state, problem.evaluate(state))
-        contact = state.status == CONTACT
-        return np.hypot(
-            problem.residual(evaluation, state.status), np.where(contact, evaluation.inflow, 0.0)
-        )
+        evaluation, status = problem.march_contents(state, problem.evaluate(state)), state.status
+        return problem.with_flow_under_contact(problem.residual(evaluation, status), evaluation, status)
 
     def _solve(self, windows, H0, in_turn, feeds, *arrays):
         """What `WHOLE` names, (ny, nx) each, with the nodes of `windows` solved, one after the other; None
@@ -98,17 +94,18 @@ class Elimination:
 
     def _solved(self, window, state, in_turn):
         """The `State` that one of the `WAYS` leads to; None where none gains anything."""
-        first = best = window.begun(state.copy())
+        first = best = window.measured(state)
         for rate in WAYS[int(in_turn) :]:
-            found = self._by_steps(window, state.copy(), replace(self._settings, squeeze=rate), in_turn)
+            found = self._by_steps(window, first, replace(self._settings, squeeze=rate), in_turn)
             best = min(best, found, key=lambda each: each.size)
             if best.size <= ENOUGH * first.size:
                 break
         return best.state if best.size < GAINED * first.size else None
 
-    def _by_steps(self, window, state, settings, in_turn):
-        """The best `Measured` state of the steps from a `state`."""
-        first = best = at = window.begun(state)
+    def _by_steps(self, window, first, settings, in_turn):
+        """The best `Measured` state of the steps from the `first`."""
+        best = at = first
+        window.forget()
         for step in range(STEPS):
             new, changed = window.step(at, settings, in_turn)
             if new is None or (step >= PATIENCE and best.size > GAINED * first.size):

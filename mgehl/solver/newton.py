@@ -9,7 +9,6 @@ from functools import partial
 import numpy as np
 from petsc4py import PETSc
 
-from mgehl.discretization.status import CONTACT
 from mgehl.grid.events import linear_solve
 from mgehl.solver.cavitation import relax_cavitation_set
 from mgehl.solver.elimination import Elimination
@@ -216,19 +215,15 @@ class Newton(PythonSnes):
 
     def _tell(self, F, load):
         """Add the present state to the history, tell the monitors."""
-        snes, cycle = self._snes, self._position.row(self._problem, self._with_flow_under_contact(F), load)
+        snes, problem, status = self._snes, self._problem, self._position.state.status
+        cycle = self._position.row(
+            problem, problem.with_flow_under_contact(F, self._evaluation, status), load
+        )
         self._position.cycles.append(cycle)
         self._monitor(cycle)
         snes.setIterationNumber(cycle.step)
         snes.setFunctionNorm(cycle.residual)
         snes.monitor(cycle.step, cycle.residual)
-
-    def _with_flow_under_contact(self, F):
-        """The size of a residual, where contact has a flow balance besides: of both."""
-        if self._problem.scheme.contact_law.closes_faces:
-            return F
-        contact = self._position.state.status == CONTACT
-        return np.hypot(F, np.where(contact, self._evaluation.inflow, 0.0))
 
     def _compute_function(self):
         """Residual (lines, nx) and load deficit of the present state, from SNES's function."""

@@ -142,6 +142,12 @@ class Problem:
         """Rows of the nonlinear residual, (lines, nx), by what the nodes are now."""
         return residual(evaluation, self.rows(status))
 
+    def with_flow_under_contact(self, F, evaluation, status):
+        """The size of a residual F, (lines, nx), where contact has a flow balance besides: of both."""
+        if self.scheme.contact_law.closes_faces:
+            return F
+        return np.hypot(F, np.where(status == CONTACT, evaluation.inflow, 0.0))
+
     def rounding(self, evaluation, status):
         """Rms residual that the last digits of the pressures may leave, without a convolution."""
         stencil = linearise(evaluation, self.rows(status))

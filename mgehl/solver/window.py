@@ -19,7 +19,7 @@ from mgehl.discretization.evaluation import Evaluation
 from mgehl.discretization.mesh import Mesh
 from mgehl.discretization.residual import linearise
 from mgehl.discretization.rows import GAP, PRESSURE
-from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.discretization.status import CAVITATED, LUBRICATED
 from mgehl.discretization.storage import Storage
 from mgehl.grid.grid import Grid
 from mgehl.solver.layers import by_reduced_pressure
@@ -78,16 +78,15 @@ class Window(Problem):
     def marched(self, status):
         return super().marched(status) & self.free
 
-    def begun(self, state):
-        """A state `Measured` with which steps begin."""
+    def forget(self):
+        """Nodes are as before the first step."""
         self._partition.forget()
-        return self.measured(state)
 
     def measured(self, state):
         """A state `Measured`; contents that are marched are set in place."""
         evaluation = self.march_contents(state, self.evaluate(state))
-        F, contact = self.residual(evaluation, state.status), state.status == CONTACT
-        left = np.hypot(F, np.where(contact, evaluation.inflow, 0.0))[self._judged]
+        F = self.residual(evaluation, state.status)
+        left = self.with_flow_under_contact(F, evaluation, state.status)[self._judged]
         return Measured(state, evaluation, self.rows(state.status), F, float(np.sqrt(np.vdot(left, left))))
 
     def step(self, at, settings, in_turn):
