@@ -1,8 +1,9 @@
 """How far a run has come, on disk: whatever ends the run, it can go on from there.
 
 RUN/checkpoint/
-    begun.npz             what is solved: configuration, own laws, the run that this one was started from
-    start/laws/           own laws of that run, while this one goes on
+    begun.npz             what is solved: configuration, where own laws were
+    laws/                 those laws
+    start/                fields.h5 and laws/ of the run that this one was started from
     solve-0000.npz, ...   finished solves, in order: a grid of the nested iteration each, or a step in speed
     under-way.npz         where the next one stands, saved every so many seconds
     frame-000000.npz, ... fields of instants that are kept of a run in time
@@ -18,12 +19,10 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from mgehl.errors import OutputError, one_line
 from mgehl.output.archive import save, unpacked
 from mgehl.output.files import CHECKPOINT, FIELDS, on_first_rank
-from mgehl.output.laws import is_law, law_files, laws_beside, laws_of, portable
+from mgehl.output.laws import is_law, law_files, laws_beside, laws_of, portable, put_files
 from mgehl.output.whole_file import writing
 from mgehl.solver.journal import Journal, told_to_stop
 from mgehl.solver.record import Record
@@ -32,10 +31,9 @@ from mgehl.version import VERSION
 BEGUN, UNDER_WAY = "begun.npz", "under-way.npz"
 
 START = "start"
-"""In begun.npz the bytes of the fields.h5 of the run that this one was started from; before the names of
-its laws."""
+"""Folder of the run that this one was started from."""
 
-FORMAT = 15
+FORMAT = 16
 """Version of the files, up with every change of layout or name; those of another are not read."""
 
 
@@ -45,14 +43,10 @@ class Begun:
 
     tables: dict
     """Of the configuration, its laws in laws/."""
-    laws: dict
-    """{laws/NAME: bytes}."""
     origins: dict
-    """{laws/NAME: where that file was, counted from the run's directory}."""
-    start: bytes | None
-    """The fields.h5 of the run that it was started from."""
-    start_laws: dict
-    """Laws of that run, as `laws`."""
+    """{laws/NAME: where that file was, counted from the run's directory}, of all laws."""
+    has_start: bool
+    """Whether it was started from another run."""
 
 
 def begin_run(directory, config, start=None):
@@ -61,18 +55,13 @@ def begin_run(directory, config, start=None):
     """
     if is_begun(directory):
         return
+    folder = Path(directory) / CHECKPOINT
     with writing(directory):
-        kept = laws_of(config) | (_start(Path(start)) if start else {})
+        put_files(folder, laws_of(config))
+        if start:
+            put_files(folder / START, {FIELDS: (Path(start) / FIELDS).read_bytes()} | laws_beside(start))
     origins = {name: os.path.relpath(file, directory) for file, name in law_files(config).items()}
-    arrays = {str(number): np.frombuffer(each, np.uint8) for number, each in enumerate(kept.values())}
-    record = _head(portable(config)) | {"names": list(kept), "origins": origins}
-    save(Path(directory) / CHECKPOINT / BEGUN, record, arrays)
-
-
-def _start(directory):
-    """{name: bytes} of what is kept of the run in a directory that another one starts from."""
-    laws = {f"{START}/{name}": content for name, content in laws_beside(directory).items()}
-    return {START: (directory / FIELDS).read_bytes()} | laws
+    save(folder / BEGUN, _head(portable(config)) | {"origins": origins, "has_start": bool(start)}, {})
 
 
 def read_begun(directory):
@@ -80,17 +69,11 @@ def read_begun(directory):
     path = Path(directory) / CHECKPOINT / BEGUN
     if not (found := load(path)):
         return None
-    record, arrays = found
+    record, _ = found
     try:
-        laws = {name: arrays[str(number)].tobytes() for number, name in enumerate(record["names"])}
-        start, of_start = laws.pop(START, None), f"{START}/"
-        theirs = {
-            name.removeprefix(of_start): laws.pop(name) for name in [*laws] if name.startswith(of_start)
-        }
-        if not all(map(is_law, [*laws, *theirs])):
+        if not all(map(is_law, record["origins"])):
             raise ValueError("it names files elsewhere")
-        origins = {name: record["origins"][name] for name in laws}
-        return Begun(record["configuration"], laws, origins, start, theirs)
+        return Begun(record["configuration"], record["origins"], record["has_start"])
     except (KeyError, TypeError, ValueError) as error:
         raise OutputError(damaged(path, error)) from None
 

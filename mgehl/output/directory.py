@@ -77,15 +77,14 @@ def clear_checkpoint(directory):
     folder = Path(directory) / CHECKPOINT
     if not is_folder(folder):
         return
-    stage, start, laws, theirs = folder / FINISHED, folder / START, (), ()
+    stage, start, laws = folder / FINISHED, folder / START, ()
     with suppress(OutputError, AttributeError):  # damaged, or not there
-        begun = read_begun(directory)
-        laws, theirs = begun.laws, begun.start_laws
-    own = [stage / name for name in (*NAMES, *laws)] + [start / name for name in theirs]
+        laws = read_begun(directory).origins
+    own = [stage / name for name in (*NAMES, *laws)] + [start / name for name in files_of(start)]
     own += [folder / name for name in laws] + _own_files(folder)
     with suppress(OSError):  # what stays is not read
-        clear_parts(folder)
-        clear_parts(stage)
+        for each in (folder, stage, start):
+            clear_parts(each)
         remove_plain((*own, folder / BEGUN))  # last the one that says that they are mgehl's
     for each in (stage / LAWS, stage, start / LAWS, start, folder / LAWS, folder):
         with suppress(OSError):  # not there, or somebody else's, too

@@ -16,9 +16,9 @@ from mgehl.output.files import (
     write_fields,
 )  # fmt: skip
 from mgehl.output.frames import write_frames
-from mgehl.output.laws import as_they_were, laws_of, put_laws
+from mgehl.output.laws import as_they_were, laws_of, put_files
 from mgehl.output.series import title_of, write_series
-from mgehl.output.stored import read_run, read_texts, start_from
+from mgehl.output.stored import read_run, read_texts
 from mgehl.output.whole_file import whole_file, write_whole, writing
 from mgehl.saying import complain
 
@@ -34,8 +34,9 @@ def _finish(directory, solution, picture):
     with writing(directory):
         stage.mkdir(parents=True, exist_ok=True)
         begun = read_begun(directory)
-        laws = begun.laws if begun else laws_of(solution.config)
-        put_laws(stage, laws)
+        kept = {name: (stage.parent / name).read_bytes() for name in begun.origins} if begun else {}
+        laws = kept if begun else laws_of(solution.config)
+        put_files(stage, laws)
         for name, text in texts.items():
             write_whole(stage / name, text)
         with whole_file(stage / FIELDS) as part:
@@ -95,5 +96,4 @@ def taken_up(directory):
     folder = Path(directory) / CHECKPOINT
     with writing(directory):
         config, said = as_they_were(begun, folder, directory)
-        put_laws(folder / START, begun.start_laws)
-    return config, begun.start and start_from(begun.start, folder / START), said
+    return config, read_run(folder / START) if begun.has_start else None, said

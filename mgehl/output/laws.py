@@ -74,9 +74,9 @@ def is_law(name):
     return re.fullmatch(r"laws/[^/\0]+", name) is not None and not name.endswith("/..")
 
 
-def put_laws(folder, laws):
-    """Write {laws/NAME: bytes} into a folder. Raises OSError."""
-    for name, content in laws.items():
+def put_files(folder, files):
+    """Write {name, such as laws/NAME: bytes} into a folder. Raises OSError."""
+    for name, content in files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         with whole_file(folder / name) as part:
             part.write_bytes(content)
@@ -89,14 +89,12 @@ def as_they_were(begun, folder, directory):
     Otherwise, as on another machine, the copies in `folder` are run. `begun` is the directory's `Begun`.
     """
     places, said = {}, []
-    for name, content in begun.laws.items():
-        origin = Path(os.path.normpath(Path(directory) / begun.origins[name]))
-        found = content_of(origin)
-        if found not in (None, content):
+    for name, place in begun.origins.items():
+        origin = Path(os.path.normpath(Path(directory) / place))
+        found, kept = content_of(origin), (folder / name).read_bytes()
+        if found not in (None, kept):
             said.append(f"{origin} has changed since the run began, which goes on with its copy of it")
-        if found != content:
-            put_laws(folder, {name: content})
-        places[name] = str((origin if found == content else folder / name).resolve())
+        places[name] = str((origin if found == kept else folder / name).resolve())
     return placed(begun.tables, places), said
 
 

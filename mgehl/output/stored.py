@@ -7,7 +7,6 @@ fields.h5 has a checksum of HDF5's: what is damaged is refused. Nothing that a f
 import csv
 import json
 import tomllib
-from io import BytesIO
 from math import nan
 from pathlib import Path
 
@@ -68,11 +67,6 @@ def read_run(directory) -> Solution:
     return _read(directory, _solution)
 
 
-def start_from(content, directory) -> Solution:
-    """The same from the bytes of a fields.h5 that a checkpoint kept, whose laws lie in the directory."""
-    return _read(directory, _solution, BytesIO(content))
-
-
 def read_texts(directory):
     """{name: text} of the files of a finished run. Raises OutputError."""
     return _read(directory, _texts)
@@ -89,18 +83,18 @@ def files_of(directory):
     return own | {FIELDS, PICTURE} | ({SERIES, FRAMES} if "end" in tables.get("time", {}) else set())
 
 
-def _read(directory, found, source=None):
+def _read(directory, found):
     """What is `found(file, directory)` in the fields.h5 of a directory. Raises OutputError."""
     directory = Path(directory)
     path = directory / FIELDS
-    if source is None and not is_plain(path):
+    if not is_plain(path):
         if is_begun(directory):
             raise OutputError(f"{directory}: has not finished: go on with: mgehl run --resume {directory}")
         if is_plain(directory / STUDY):
             raise OutputError(f"{directory}: is a sweep or a study, whose runs are {directory}/runs/*")
         raise OutputError(f"{directory}: is no run directory: it has no {FIELDS}")
     try:
-        with h5py.File(source or path, "r") as file:
+        with h5py.File(path, "r") as file:
             return found(file, directory)
     except Exception as error:  # what a damaged file raises is anybody's guess
         raise OutputError(f"{path}: is damaged, or no run of mgehl: {one_line(error)}") from None

@@ -131,8 +131,7 @@ class TestForeign:
         put(here, -0.25, force=True)
         checkpoint = here / "checkpoint"
         record = {"format": FORMAT, "mgehl": VERSION, "configuration": {}}
-        kept = {"names": [name], "origins": {name: ""}}
-        save(checkpoint / "begun.npz", record | kept, {"0": np.zeros(3, np.uint8)})
+        save(checkpoint / "begun.npz", record | {"origins": {name: ""}, "has_start": False}, {})
         with pytest.raises(OutputError, match="it names files elsewhere"):
             taken_up(here)
         clear_checkpoint(here)
