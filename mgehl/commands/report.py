@@ -38,10 +38,8 @@ def _page(directory):
     from mgehl.output.report.run_report import report
     from mgehl.output.report.study_report import is_study, study_report
     from mgehl.output.stored import read_run
-    from mgehl.output.study_directory import check_study
     from mgehl.studies.catalogue import WHAT
 
     if is_study(directory):
-        check_study(directory)
         return render(study_report(directory, WHAT))
     return report(read_run(directory), directory.resolve().name)

@@ -74,8 +74,6 @@ def begin_study(directory, record, resume):
     stage = directory / UNFINISHED
     if os.path.lexists(stage) and not is_folder(stage):
         raise OutputError(f"{stage}: is no folder of mgehl's: it is left alone")
-    if _is_whole(stage):  # a kill at the very end
-        _publish(directory, stage)
     if os.path.lexists(directory / FIELDS):
         raise UserError(f"{directory}: is the directory of a run; choose another with --out")
     before = read_record(stage) or read_record(directory)
@@ -107,11 +105,6 @@ def _clear_run(path):
             folder.rmdir()
 
 
-def _is_whole(stage):
-    record = read_record(stage)
-    return bool(record and record.files)
-
-
 def _drawn(stage):
     """Tables and pictures of a folder."""
     return [path for path in stage.iterdir() if _is_name(path.name) and is_plain(path)]
@@ -125,32 +118,19 @@ def _is_name(name):
 def finish_study(directory, stage, resume):
     """Put the tables and pictures of `stage` in the directory, in the place of those that were there. With
     `resume`, tables that were not written anew stay. Raises OutputError."""
-    old = read_record(directory)
-    kept = old.files if old and resume else ()
-    with writing(stage):
-        files = {*kept, *(path.name for path in _drawn(stage))}
-        write_record(stage, replace(read_record(stage), files=tuple(sorted(files))))
-    _publish(Path(directory), stage)
-
-
-def _publish(directory, stage):
-    """Move the new files, remove the old ones that have no successor; a second call finishes the work."""
-    new, old = read_record(stage), read_record(directory)
-    known = {NAME, *filter(_is_name, old.files if old else ())}
-    moved = [name for name in (*filter(_is_name, new.files), NAME) if is_plain(stage / name)]
-    for name in moved:
-        there = directory / name
-        if os.path.lexists(there) and not (name in known and is_plain(there)):
+    directory, record, old = Path(directory), read_record(stage), read_record(directory)
+    known, new = {*filter(_is_name, old.files if old else ())}, {path.name for path in _drawn(stage)}
+    for there in sorted(directory / name for name in new):
+        if os.path.lexists(there) and not (there.name in known and is_plain(there)):
             raise OutputError(f"{there}: is not this study's: it is left alone; move it away")
+    stay = new | (known if resume else set())
+    # Before any is moved: whatever ends the process, the next study knows them as its own.
+    write_record(directory, replace(record, files=tuple(sorted(known | new))))
     with writing(directory):
-        remove_plain(directory / name for name in known - {*new.files, NAME})
-        for name in moved:
+        remove_plain(directory / name for name in known - stay)
+        for name in new:
             (stage / name).replace(directory / name)
+    write_record(directory, replace(record, files=tuple(sorted(stay))))
     with suppress(OSError):  # somebody else's, too
+        remove_plain([stage / NAME])
         stage.rmdir()
-
-
-def check_study(directory):
-    """Raise OutputError where only some of a study's files are replaced yet."""
-    if _is_whole(Path(directory) / UNFINISHED):
-        raise OutputError(f"{directory}: has not finished: go on with --resume")
