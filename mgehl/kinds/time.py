@@ -86,15 +86,13 @@ def own_courses(config):
 def with_recorded(tables, courses):
     """Nested tables with what own courses gave, as `own_courses` has it, in the place of their functions.
 
-    Raises ValueError where one is not known.
+    Raises KeyError where one is not known.
     """
     laid = {section: dict(table) for section, table in tables.items()}
-    for section, _, name in (key.partition(".") for key in ONLY_IN_TIME):
-        if not is_own(value := laid.get(section, {}).get(name)):
-            continue
-        if (key := f"{section}.{name}") not in courses:
-            raise ValueError(f"{key}: an older mgehl did not keep what the function gave")
-        laid[section][name] = Recorded.of(value, laid["time"]["end"], courses[key])
+    for key in ONLY_IN_TIME:
+        section, _, name = key.partition(".")
+        if is_own(value := laid.get(section, {}).get(name)):
+            laid[section][name] = Recorded.of(value, laid["time"]["end"], courses[key])
     return laid
 
 

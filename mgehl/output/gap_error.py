@@ -81,9 +81,8 @@ class GapError:
     """Of what drags each body, over the load."""
 
     def is_the_grids(self, name):
-        """Whether a number of `SHOWN` has no band though the mean gap has one; not of older results."""
-        known = self.mean_nm is not None and self.grids and self.grids[0].max_pressure_GPa is not None
-        return bool(known) and getattr(self, name) is None
+        """Whether a number of `SHOWN` has no band though the mean gap has one, by grids."""
+        return self.mean_nm is not None and bool(self.grids) and getattr(self, name) is None
 
     @property
     def the_grids(self):

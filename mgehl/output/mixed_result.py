@@ -17,7 +17,7 @@ NEAR = 1.1
 """Films of so many boundary films are contact on another grid, or by another tolerance."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class MixedResult:
     """Film and contact of rough bodies; areas of a line contact are those of one metre of its length. Films
     are means and minima over film nodes within the Hertz ellipse or width, or None."""
@@ -41,19 +41,19 @@ class MixedResult:
     """Part of the nodes within the Hertz ellipse where the film is torn: cavitated."""
     per_metre: bool = False
     """Whether areas are those of one metre: of a line contact."""
-    mean_gap_nm: float | None = None
-    """Of all nodes within the ellipse, film, contact and torn film alike; None in older results."""
-    loaded_gap_nm: float | None = None
+    mean_gap_nm: float
+    """Of all nodes within the ellipse, film, contact and torn film alike."""
+    loaded_gap_nm: float
     """The same by their pressure: the gap on which the load rests. In results before 30 November 2026 of
     all nodes."""
-    near_contact_load_share: float | None = None
+    near_contact_load_share: float
     """Part of the load on films at most `NEAR` times as thick as the boundary film that contact keeps."""
     error: GapError | None = None
-    """Bands about the mean gaps, the largest pressure and the loads; None in older results."""
-    solid_load_fraction: float | None = None
-    """Part of the load that solids carry: P - p of contact nodes; None in older results."""
-    sealed_load_fraction: float | None = None
-    """Part of the load on films and cavities that contact shuts in on all sides; None in older results."""
+    """Bands about the mean gaps, the largest pressure and the loads; None of bodies without roughness."""
+    solid_load_fraction: float
+    """Part of the load that solids carry: P - p of contact nodes."""
+    sealed_load_fraction: float
+    """Part of the load on films and cavities that contact shuts in on all sides."""
     torn_filling: float | None = None
     """Mean part of the gap above the layers that cavities within the Hertz ellipse hold fluid in."""
 

@@ -43,7 +43,7 @@ def _ratio_words(mixed):
 
 
 def filling_words(result):
-    """How full cavities are; nothing where there is none, or of an older result."""
+    """How full cavities are; nothing where there is none."""
     filling = result.torn_filling
     return "" if filling is None else f", where {100 * filling:.0f} % of the gap is filled"
 
@@ -51,9 +51,7 @@ def filling_words(result):
 def _shares(mixed):
     """What carries the load; films of which another grid may make contact are named apart."""
     contact = load_words(mixed, "contact_load_share")
-    near, film = (
-        100.0 * (share or 0.0) for share in (mixed.near_contact_load_share, mixed.film_load_share)
-    )
+    near, film = (100.0 * share for share in (mixed.near_contact_load_share, mixed.film_load_share))
     if not (mixed.patches and near):
         return f"{contact} of the load, the film {film:.2f} %"
     others = f"other films {film - near:.2f} %"
@@ -61,8 +59,8 @@ def _shares(mixed):
 
 
 def _carried_by_solids(mixed):
-    """What solids carry beside the fluid in their layers, and what pockets carry; none of older results."""
-    if mixed.patches and mixed.solid_load_fraction is not None:
+    """What solids carry beside the fluid in their layers, and what pockets carry."""
+    if mixed.patches:
         solids = load_words(mixed, "solid_load_fraction")
         yield (
             f"solids carry {solids} of the load, the fluid in contact's layers "
@@ -72,9 +70,7 @@ def _carried_by_solids(mixed):
 
 
 def _mean_gaps(mixed):
-    """Mean gaps with their bands, and how these came about; nothing of an older result."""
-    if mixed.mean_gap_nm is None:
-        return
+    """Mean gaps with their bands, and how these came about."""
     mean, loaded = mean_gaps(mixed)
     yield (
         f"gap, contact included: mean {mean} nm within the {mixed.hertz_region}, {loaded} nm by pressure "

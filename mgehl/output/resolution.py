@@ -3,7 +3,7 @@ formula's film alone: `mgehl check` and the run say the same words."""
 
 from dataclasses import dataclass, replace
 from itertools import product
-from math import isfinite, isnan, nan
+from math import isfinite, nan
 
 from mgehl.config import COARSEST_NODES
 from mgehl.kinds.loaded import speed_words
@@ -27,8 +27,8 @@ FILM_IS_THE_GRIDS = 0.5
 STARVED_FROM = 1.0
 """A domain starves its film from so many per cent on that a domain of twice the size would have more."""
 
-SUFFICIENT, STARVED, UNKNOWN = "sufficient", "starved", "unknown"
-"""Verdicts; the last of runs that older versions made."""
+SUFFICIENT, STARVED = "sufficient", "starved"
+"""Verdicts on a domain."""
 
 STANDS = "standing"
 """Verdict on an inlet and a domain of surfaces that stand still: no formula knows their film."""
@@ -41,11 +41,11 @@ class Resolution:
     inlet_cells: float
     """nan where the surfaces stand still throughout."""
     verdict: str
-    domain: str = UNKNOWN
+    domain: str = SUFFICIENT
     """Whether the domain is "sufficient" for the film, or the film "starved" by it."""
     domain_loss_percent: float = nan
     """Estimate of the film that a domain of twice the size would have more."""
-    surface: str = surface.UNKNOWN
+    surface: str = surface.SMOOTH
     """Whether the grid shows the surface: "smooth", "resolved", "coarse" or "grid-determined"."""
     surface_nodes: float | None = None
     """Nodes in the shortest wave of the surface; None without waves."""
@@ -56,7 +56,7 @@ class Resolution:
     rests: bool = False
     """Whether the surfaces come to rest, where no grid resolves the inlet."""
     nodes_at_rest: float | None = None
-    """Cells across the contact in which the bodies stand then; None elsewhere, and in older results."""
+    """Cells across the contact in which the bodies stand then; None elsewhere."""
 
     @property
     def is_the_grids(self):
@@ -95,7 +95,7 @@ def resolution(contact, mesh, scene=None, film=None):
     cells = inlet_cells(contact, mesh, scene) if by_formula else inlet_cells_of(contact, mesh, film)
     lost = film_lost(contact, mesh, scene)
     beyond = load_beyond(contact, mesh, scene)
-    domain = STARVED if _is_most(beyond) else domain_verdict(lost)
+    domain = STARVED if _is_most(beyond) or lost >= STARVED_FROM else SUFFICIENT
     verdict = "coarse" if cells >= SEEN_CELLS else "grid-determined"
     if cells >= RESOLVED_CELLS:
         verdict = "resolved" if domain == SUFFICIENT else domain
@@ -197,18 +197,9 @@ def _instants(contact, scene):
     return list(product(there, scene.senses))
 
 
-def domain_verdict(lost):
-    """The verdict on a domain that takes so many per cent of the film away."""
-    if isnan(lost):
-        return UNKNOWN
-    return STARVED if lost >= STARVED_FROM else SUFFICIENT
-
-
 def domain_words(resolution):
     """The verdict on a domain and its estimate in words."""
     verdict, lost = resolution.domain, resolution.domain_loss_percent
-    if verdict == UNKNOWN:
-        return "not judged: made by an older version"
     if verdict == STANDS:
         return "of a point contact what is squeezed out beyond it is counted, as between rigid bodies"
     if verdict == SUFFICIENT:

@@ -19,8 +19,8 @@ SMOOTHEST = 2e-10
 ROUGHEST = 20e-6
 """Sq in m above which it is doubted, too."""
 
-SMOOTH, RESOLVED, COARSE, GRIDS, UNKNOWN = "smooth", "resolved", "coarse", "grid-determined", "unknown"
-"""Verdicts; the last of runs that older versions made."""
+SMOOTH, RESOLVED, COARSE, GRIDS = "smooth", "resolved", "coarse", "grid-determined"
+"""Verdicts."""
 
 
 @dataclass(frozen=True)

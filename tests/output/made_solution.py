@@ -5,6 +5,7 @@ import numpy as np
 from mgehl.config import config_from_tables
 from mgehl.discretization.mesh import Mesh
 from mgehl.kinds import contact_from
+from mgehl.output.mixed_result import MixedResult
 from mgehl.output.result import ContactResult, Overlap, Resolution, Result, TimeResult, Work
 from mgehl.output.solution import Fields, Solution
 from mgehl.solver.inequality import Inequality
@@ -39,6 +40,16 @@ def in_time(**changes):
     """What a `Result` has of a run in time, but for some parts."""
     told = {"end_s": 1.0, "steps": 9, "halved": 0, "largest_closure": 0.0, "largest_node": 0.0}
     return TimeResult(**told | {"convolutions_a_step": 1.0, "passages": 3.0, "means": {}} | changes)
+
+
+def make_mixed(**changes):
+    """A `MixedResult`, but for some parts."""
+    told = {"lambda_ratio": 0.25, "Sq_nm": 80.0, "contact_load_share": 0.125, "film_load_share": 0.875}
+    told |= {"contact_area_m2": 3e-9, "contact_area_over_hertz": 0.0625, "patches": 7}
+    told |= {"largest_patch_m2": 1e-9, "mean_film_nm": 40.0, "minimum_film_nm": None, "torn_share": 0.015}
+    told |= {"valley_film_nm": 90.0, "mean_gap_nm": 13.74, "loaded_gap_nm": 2.911}
+    told |= {"near_contact_load_share": 0.25, "solid_load_fraction": 0.1, "sealed_load_fraction": 0.0}
+    return MixedResult(**told | changes)
 
 
 def make_solution(kind):

@@ -2,13 +2,12 @@ import re
 from dataclasses import replace
 
 import pytest
-from made_solution import in_time, make_result
+from made_solution import in_time, make_mixed, make_result
 from mpi4py import MPI
 from places import ROOT
 
 import mgehl
 from mgehl.output.gap_error import no_band
-from mgehl.output.mixed_result import MixedResult
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import Mean, TimeError
 from mgehl.output.time_words import mean_gap_words
@@ -63,10 +62,8 @@ class TestWhereToReadOn:
     def test_where_rough_bodies_touch_as_the_grid_has_it(self, patches, share, is_said):
         """The inlet may be resolved all the same."""
         error = replace(no_band("on 257 nodes no state settled"), contact_load_share=share)
-        touching = 0.25, 80.0, 0.125, 0.875, 3e-9, 0.0625, patches, 1e-9, 40.0, None, 90.0, 0.015
-        result = make_result(
-            resolution=Resolution(5.0, "resolved"), mixed=MixedResult(*touching, error=error)
-        )
+        mixed = make_mixed(patches=patches, error=error)
+        result = make_result(resolution=Resolution(5.0, "resolved"), mixed=mixed)
         assert (str(result).splitlines()[-1] == f"  {UNRESOLVED}") == is_said
 
 
