@@ -10,8 +10,7 @@ from math import nan
 import numpy as np
 
 from mgehl.output.film_error import FILMS
-from mgehl.studies.columns import told
-from mgehl.studies.limits import cells, judged, number_of, summary
+from mgehl.studies.limits import judged, number_of, summary
 from mgehl.studies.study import BEST, merged
 
 NODES, CASES, SEED = (65, 129, 257), 40, 11
@@ -52,8 +51,8 @@ def run(study):
             continue
         limits = limits_of(found[-1].result.error) | _limits_of_loads(*found[-2:])
         for solution in found[:-1]:
-            own = {each: judged(of, solution.result, limits[each]) for each, of in BANDED.items()}
-            rows.append(_row(name, solution, own))
+            row, own = judged(name, solution, "inlet cells", limits, BANDED)
+            rows.append(row | _more(solution.result))
             for each, band in own.items():
                 bands[each].append(band)
     study.write_table("cases", rows)
@@ -100,11 +99,7 @@ def _limits_of_loads(coarse, fine):
     }
 
 
-def _row(name, solution, bands):
-    result = solution.result
-    row = {"contact": name, "nodes": str(solution.mesh.nx), **told(result, "inlet cells")}
-    for each, band in bands.items():
-        row |= cells(each, band, BANDED[each])
+def _more(result):
+    """What bands cost, and why there are none."""
     more = f"{100.0 * result.error.convolutions / result.work.convolutions:.0f}"
-    why = "" if result.error.central_nm is not None else result.error.how
-    return row | {"more work %": more, "no band": why}
+    return {"more work %": more, "no band": "" if result.error.central_nm is not None else result.error.how}

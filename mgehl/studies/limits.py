@@ -8,7 +8,7 @@ import numpy as np
 
 from mgehl.output.digits import with_band
 from mgehl.output.quantities import QUANTITIES
-from mgehl.studies.columns import statistic
+from mgehl.studies.columns import statistic, told
 
 PLAUSIBLE_ORDERS = (0.5, 3.0)
 """Orders outside of this range come from values that are too far from their limit to tell it."""
@@ -72,20 +72,20 @@ def number_of(name, result):
     return attrgetter(QUANTITIES[name].path)(result)
 
 
-def judged(name, result, limit):
-    """The `JudgedBand` of a quantity of a `Result`."""
-    return JudgedBand(number_of(name, result), attrgetter(QUANTITIES[name].band)(result), limit)
-
-
-def cells(name, band, quantity):
-    """Columns of a table about a number that is the quantity."""
-    unit = QUANTITIES[quantity].unit
-    unit = "" if unit == "1" else f" {unit}"
-    return {
-        f"{name}{unit}": with_band(band.value, band.half_width),
-        f"{name} limit{unit}": f"{band.limit:.4g}",
-        f"{name} band/error": band.over_error,
-    }
+def judged(title, solution, columns, limits, banded):
+    """The row of a case's `Solution`, with some columns of `columns.COLUMNS`, and {name: `JudgedBand`} of
+    the numbers that are `banded`, {name: quantity}, by their `limits`."""
+    result, bands = solution.result, {}
+    row = {"contact": title, "nodes": str(solution.mesh.nx), **told(result, columns)}
+    for name, quantity in banded.items():
+        found = QUANTITIES[quantity]
+        band = JudgedBand(number_of(quantity, result), attrgetter(found.band)(result), limits[name])
+        unit = "" if found.unit == "1" else f" {found.unit}"
+        row[f"{name}{unit}"] = with_band(band.value, band.half_width)
+        row[f"{name} limit{unit}"] = f"{band.limit:.4g}"
+        row[f"{name} band/error"] = band.over_error
+        bands[name] = band
+    return row, bands
 
 
 def summary(bands):

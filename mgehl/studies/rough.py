@@ -6,8 +6,7 @@ order.
 """
 
 from mgehl.studies import machine, rollers
-from mgehl.studies.columns import told
-from mgehl.studies.limits import cells, judged, number_of, summary
+from mgehl.studies.limits import judged, number_of, summary
 from mgehl.studies.study import merged
 
 GRIDS = {"line": (513, 1025, 2049), "point": (65, 129, 257)}
@@ -44,11 +43,9 @@ def run(study):
     for name, (kind, tables) in drawn.items():
         *coarse, finest = _on_grids(study, name, tables, GRIDS[kind])
         for solution in coarse if finest else ():
-            own = {
-                each: judged(of, solution.result, number_of(of, finest.result))
-                for each, of in BANDED.items()
-            }
-            rows.append(_row(name, solution, own))
+            limits = {each: number_of(of, finest.result) for each, of in BANDED.items()}
+            row, own = judged(name, solution, "lambda, inlet cells", limits, BANDED)
+            rows.append(row)
             for each, band in own.items():
                 bands.setdefault(f"{each}, {kind}", []).append(band)
     study.write_table("cases", rows)
@@ -76,10 +73,3 @@ def _on_grids(study, name, tables, grids):
 
 def _converged(solution):
     return solution is not None and solution.result.converged
-
-
-def _row(name, solution, bands):
-    row = {"contact": name, "nodes": str(solution.mesh.nx), **told(solution.result, "lambda, inlet cells")}
-    for each, band in bands.items():
-        row |= cells(each, band, BANDED[each])
-    return row

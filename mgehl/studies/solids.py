@@ -9,6 +9,7 @@ import numpy as np
 from mgehl.output.pictures.style import COLOURS, subplots
 from mgehl.studies.chance import BALL
 from mgehl.studies.columns import told
+from mgehl.studies.limits import number_of
 from mgehl.studies.study import merged
 
 NODES, SPEEDS = 65, (0.1, 0.03, 0.015, 0.008, 0.003, 0.001)
@@ -79,12 +80,7 @@ def _mean(result, name):
     if result.time:
         mean = result.time.means.get(name)
         return (mean.value, "" if mean.band is None else f"{mean.band:.2g}") if mean else (np.nan, "")
-    mixed = result.mixed
-    return {
-        "load_on_solids": mixed.solid_load_fraction,
-        "load_on_contact": mixed.contact_load_share,
-        "mean_gap_nm": mixed.mean_gap_nm,
-    }[name], ""
+    return number_of(name, result), ""
 
 
 def _curve(results, oil, motion):
