@@ -8,9 +8,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
 from mgehl.errors import OutputError, UserError
 from mgehl.output.solution import Solution as Solved
 
@@ -28,17 +25,6 @@ class Solution(Solved):
     def of(cls, solved: Solved) -> "Solution":
         """The same solution with what its user may want."""
         return cls(**{each.name: getattr(solved, each.name) for each in fields(Solved)})
-
-    @property
-    def status(self) -> NDArray[np.int8] | None:
-        """What each node is, (ny, nx): an index of `mgehl.discretization.status.NAMES`; on rank 0."""
-        return None if self.fields is None else self.fields.status.copy()
-
-    @property
-    def heights(self) -> NDArray[np.float64] | None:
-        """Heights of rough bodies over smooth ones in m, a peak positive, (ny, nx); on rank 0."""
-        known = None if self.fields is None else self.fields.heights
-        return None if known is None else known.copy()
 
     def __repr__(self) -> str:
         return f"<mgehl.Solution: {self._heading()}>\n{self.summary.words(verbose=False)}"

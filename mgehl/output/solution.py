@@ -128,12 +128,13 @@ class Solution:
     @property
     def status(self) -> NDArray[np.int8] | None:
         """What each node is, (ny, nx): an index of `mgehl.discretization.status.NAMES`; on rank 0."""
-        return None if self.fields is None else self.fields.status
+        return None if self.fields is None else self.fields.status.copy()
 
     @property
     def heights(self) -> Reals | None:
         """Heights of rough bodies over smooth ones in m, a peak positive, (ny, nx); on rank 0."""
-        return None if self.fields is None else self.fields.heights
+        known = None if self.fields is None else self.fields.heights
+        return None if known is None else known.copy()
 
     @property
     def x(self) -> Reals:
