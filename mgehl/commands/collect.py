@@ -20,14 +20,17 @@ def add(parser):
 def execute(options):
     """Print the table, drawn on a terminal and else in Markdown; write it as CSV, too, where asked to."""
     from mgehl.config import KEYS
-    from mgehl.output.table import collect, drawn, markdown, with_bands, write_csv
+    from mgehl.output.files import csv_text
+    from mgehl.output.table import collect, drawn, markdown, with_bands
+    from mgehl.output.whole_file import write_whole
     from mgehl.saying import columns as terminal_columns
 
     named = options.columns.split(",") if options.columns else []
     try:
         rows = collect(options.runs, [column for column in named if column in KEYS])
         if options.out:
-            write_csv(Path(options.out), rows)
+            Path(options.out).parent.mkdir(parents=True, exist_ok=True)
+            write_whole(options.out, csv_text(rows))
     except OSError as error:
         raise OutputError(f"{error.filename}: {error.strerror}") from None
     except (ValueError, KeyError) as error:

@@ -84,19 +84,19 @@ def texts_of(solution):
     texts = {
         CONFIGURATION: tomli_w.dumps(portable(solution.config)),
         RESULT: json.dumps(finite(told), indent=2, allow_nan=False) + "\n",
-        HISTORY: _table(
-            [list(solution.rows[0]) if solution.rows else [], *map(dict.values, solution.rows)]
-        ),
+        HISTORY: csv_text(solution.rows),
     }
     if not solution.contact.is_loaded:
         X, P = centre_pressure(solution.mesh, solution.fields)  # [Liu eq. 44] along Y = 0, nan in a pillar
-        texts[CENTER_LINE] = _table([["X_mm", "P"], *zip(X.tolist(), P.tolist(), strict=True)])
+        points = zip(X.tolist(), P.tolist(), strict=True)
+        texts[CENTER_LINE] = csv_text([{"X_mm": x, "P": p} for x, p in points])
     return texts
 
 
-def _table(rows):
+def csv_text(rows):
+    """Rows, dictionaries of the same columns, as CSV; of none an empty line."""
     text = StringIO(newline="")
-    csv.writer(text).writerows(rows)
+    csv.writer(text).writerows([rows[0] if rows else [], *map(dict.values, rows)])
     return text.getvalue()
 
 

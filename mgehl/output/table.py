@@ -16,7 +16,6 @@ from mgehl.errors import printable
 from mgehl.output.digits import is_number, with_band
 from mgehl.output.quantities import of_what, read_told, told_at
 from mgehl.output.stored import read_texts
-from mgehl.output.whole_file import whole_file
 from mgehl.output.words import span
 
 DEFAULT = "default"
@@ -199,12 +198,3 @@ def markdown(rows, columns):
     return "\n".join(
         "| " + " | ".join(printable(text).replace("|", "\\|") for text in line) + " |" for line in lines
     )
-
-
-def write_csv(path, rows):
-    """The rows as CSV."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with whole_file(path) as part, part.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, fieldnames=list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)

@@ -23,7 +23,7 @@ from mgehl.errors import OutputError, UserError, one_line
 from mgehl.kinds.choice import value_of
 from mgehl.output.checkpoint import is_begun
 from mgehl.output.directory import make_directory
-from mgehl.output.files import CONFIGURATION, FIELDS, REPORT, on_first_rank
+from mgehl.output.files import CONFIGURATION, FIELDS, REPORT, csv_text, on_first_rank
 from mgehl.output.laws import changed_laws, law_files, portable
 from mgehl.output.lock import locked
 from mgehl.output.pictures.titles import differing
@@ -32,7 +32,7 @@ from mgehl.output.report.study_report import study_report
 from mgehl.output.solution import on_every_rank
 from mgehl.output.stored import read_run, read_texts
 from mgehl.output.study_directory import RUNS, StudyRecord, begin_study, clear_runs, finish_study
-from mgehl.output.table import drawn, markdown, said, write_csv
+from mgehl.output.table import drawn, markdown, said
 from mgehl.output.whole_file import write_whole
 from mgehl.run import Watch, enter, run
 from mgehl.saying import columns, complain, say
@@ -191,10 +191,7 @@ class Study:
             return
         heads = list(dict.fromkeys(head for row in rows for head in row))
         rows = [dict.fromkeys(heads, "") | row for row in rows]
-        try:
-            write_csv(self.directory / f"{name}.csv", rows)
-        except OSError as error:
-            raise OutputError(f"{self.directory}: cannot be written: {error}") from None
+        write_whole(self.directory / f"{name}.csv", csv_text(rows))
         write_whole(self.directory / f"{name}.md", markdown(rows, heads) + "\n")
         if self.speak:
             shown = [head for head in shown if any(row.get(head) for row in rows)] or heads
