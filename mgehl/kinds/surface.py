@@ -15,6 +15,7 @@ from mgehl.model.own_function import OwnFunctionError
 from mgehl.model.own_laws import OwnSurface
 from mgehl.model.scene import Moved
 from mgehl.model.surface import Measured, summed
+from mgehl.model.surface.doubts import farthest
 from mgehl.model.surface.map import SurfaceFileError
 from mgehl.model.surface.self_affine import LARGEST_SPAN
 
@@ -136,7 +137,7 @@ def _check_heights(key, surface, x, y, radius):
     """
     common = 0.0
     if isinstance(surface, Measured):
-        common, point = np.median(surface.heights.points), surface.heights.farthest
+        common, point = np.median(surface.heights.points), farthest(surface.heights.points)
         off, most = 1e6 * point.height, 1e6 * HIGHEST * radius
         if abs(off) > most:
             raise ConfigError(

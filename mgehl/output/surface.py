@@ -6,6 +6,7 @@ from math import inf, isfinite, isinf
 from mgehl.kinds.surface import parts_of
 from mgehl.kinds.time import stands_still
 from mgehl.model.surface import Measured
+from mgehl.model.surface.doubts import jumped, outstanding
 
 RESOLVED_NODES, SEEN_NODES = 8.0, 4.0
 """Nodes in the shortest wave from which on it is resolved, and below which the grid shows another one."""
@@ -142,7 +143,7 @@ def _doubts(heights):
             f"{count} points, the first in row {point.row}, column {point.column}, have the same height of "
             f"{1e6 * point.height:.4g} um, apart from all others: a missing value?"
         )
-    count, point = heights.outstanding
+    count, point = outstanding(heights.own_points, min(heights.dx, heights.dy))
     if count:
         stand = "1 point stands" if count == 1 else f"{count} points stand"
         means = "such a point may bear all of the load" if point.height > 0.0 else "a missing value?"
@@ -150,7 +151,8 @@ def _doubts(heights):
             f"{stand} out of all neighbours, row {point.row}, column {point.column} most, by "
             f"{1e6 * point.height:.4g} um: {means}"
         )
-    name, lines, apart = heights.jumped
+    # A profile's points are no lines.
+    name, lines, apart = jumped(heights.points) if not heights.is_profile else ("", [], 0.0)
     if lines:
         yield (
             f"{name} {', '.join(map(str, lines))}: the whole {name} lies {1e9 * apart:.4g} nm off its "

@@ -84,21 +84,6 @@ class Heights:
             return np.inf
         return min(size**2 / (8.0 * max(bend, 1e-300)) for size, bend in zip(self.size, bends, strict=True))
 
-    @cached_property
-    def farthest(self):
-        """As `doubts.farthest`."""
-        return doubts.farthest(self.points)
-
-    @cached_property
-    def outstanding(self):
-        """As `doubts.outstanding`."""
-        return doubts.outstanding(self.own_points, min(self.dx, self.dy))
-
-    @cached_property
-    def jumped(self):
-        """As `doubts.jumped`; a profile's points are no lines."""
-        return ("", [], 0.0) if self.is_profile else doubts.jumped(self.points)
-
     @property
     def size(self):
         """Distance of the outermost points along x and along y, in m."""

@@ -41,20 +41,17 @@ def of_window(solution, values):
 
 
 @pytest.mark.parametrize("function", ALL)
-@pytest.mark.parametrize("kept", [True, False])
-def test_a_cavity_is_drawn_by_its_filling(make_solution, drawn, function, kept):
-    """From 0 to 1, of cavities alone; of older results, which do not have it, it is full."""
+def test_a_cavity_is_drawn_by_its_filling(make_solution, drawn, function):
+    """From 0 to 1, of cavities alone."""
     solution = make_solution()
     filling = np.linspace(0.0, 1.0, solution.status.size).reshape(solution.status.shape)
-    if kept:
-        solution.fields.filling = filling
+    solution.fields.filling = filling
     axes = drawn(function, solution).axes[0]
     (image,) = [each for each in axes.get_images() if each.cmap is style.FILLING_MAP]
     status = solution.status if function is maps.status_map else of_window(solution, solution.status)
     filling = filling if function is maps.status_map else of_window(solution, filling)
     np.testing.assert_array_equal(~np.ma.getmaskarray(image.get_array()), status == CAVITATED)
-    expected = filling[status == CAVITATED] if kept else 1.0
-    np.testing.assert_array_equal(image.get_array().compressed(), expected)
+    np.testing.assert_array_equal(image.get_array().compressed(), filling[status == CAVITATED])
     assert (image.norm.vmin, image.norm.vmax) == (0.0, 1.0)
     assert "cavity:\npart filled" in [bar.get_ylabel() for bar in axes.child_axes]
     assert "edge of a cavity" in [text.get_text() for text in axes.get_legend().get_texts()]
