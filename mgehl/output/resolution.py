@@ -3,7 +3,7 @@ formula's film alone: `mgehl check` and the run say the same words."""
 
 from dataclasses import dataclass, replace
 from itertools import product
-from math import isfinite, nan
+from math import nan
 
 from mgehl.config import COARSEST_NODES
 from mgehl.kinds.loaded import speed_words
@@ -89,8 +89,10 @@ def resolution(contact, mesh, scene=None, film=None):
     Of a `Scene` the contact is that at a time of 0, the inlet that of the slowest motion, and the domain is
     judged at the instant that it takes most from.
     """
-    if scene is not None and scene.stands:
-        return _standing(contact, mesh)
+    shown = surface.SurfaceOnGrid.of(contact, mesh)
+    seen = shown.verdict, shown.wave_nodes
+    if scene is not None and scene.stands:  # no motion builds a film
+        return Resolution(nan, STANDS, STANDS, nan, *seen)
     by_formula = film is None or scene is not None
     cells = inlet_cells(contact, mesh, scene) if by_formula else inlet_cells_of(contact, mesh, film)
     lost = film_lost(contact, mesh, scene)
@@ -99,7 +101,7 @@ def resolution(contact, mesh, scene=None, film=None):
     verdict = "coarse" if cells >= SEEN_CELLS else "grid-determined"
     if cells >= RESOLVED_CELLS:
         verdict = "resolved" if domain == SUFFICIENT else domain
-    found = Resolution(cells, verdict, domain, lost, *_surface(contact, mesh), beyond)
+    found = Resolution(cells, verdict, domain, lost, *seen, beyond)
     if scene is None or scene.is_steady:
         return found
     across = 2.0 / (mesh.dX if mesh.is_line else max(mesh.dX, mesh.dY))
@@ -107,17 +109,6 @@ def resolution(contact, mesh, scene=None, film=None):
         found, inlet_speed=abs(scene.speed.value(scene.slowest)), rests=scene.rests,
         nodes_at_rest=across if scene.rests else None,
     )  # fmt: skip
-
-
-def _standing(contact, mesh):
-    """The `Resolution` of surfaces that stand still throughout: no motion builds their film."""
-    return Resolution(nan, STANDS, STANDS, nan, *_surface(contact, mesh))
-
-
-def _surface(contact, mesh):
-    """What a mesh shows of the surface, and nodes in its shortest wave; None without waves."""
-    nodes = surface.wave_nodes(contact, mesh)
-    return surface.surface_verdict(contact, nodes), nodes if isfinite(nodes) else None
 
 
 def inlet_speed_words(resolution):

@@ -1,7 +1,7 @@
 """How well a grid shows a surface, and the words for it in a run and in `mgehl check`."""
 
 from dataclasses import dataclass
-from math import inf, isfinite, isinf
+from math import isfinite
 
 from mgehl.kinds.surface import parts_of
 from mgehl.kinds.time import stands_still
@@ -26,7 +26,7 @@ SMOOTH, RESOLVED, COARSE, GRIDS = "smooth", "resolved", "coarse", "grid-determin
 
 @dataclass(frozen=True)
 class SurfaceOnGrid:
-    """How well a grid shows the surface of a contact without a film."""
+    """How well a grid shows the surface of a contact."""
 
     verdict: str
     wave_nodes: float | None
@@ -35,22 +35,11 @@ class SurfaceOnGrid:
     @classmethod
     def of(cls, contact, mesh):
         """That of a contact on a mesh."""
-        nodes = wave_nodes(contact, mesh)
-        return cls(surface_verdict(contact, nodes), nodes if isfinite(nodes) else None)
-
-
-def wave_nodes(contact, mesh):
-    """Nodes of a mesh in the shortest wave of a contact's surface; `inf` without waves."""
-    return inf if contact.surface is None else contact.shortest_wave(mesh) / contact.longest_cell(mesh)
-
-
-def surface_verdict(contact, nodes):
-    """The verdict on so many nodes in the shortest wave."""
-    if contact.surface is None:
-        return SMOOTH
-    if nodes >= RESOLVED_NODES:
-        return RESOLVED
-    return COARSE if nodes >= SEEN_NODES else GRIDS
+        if contact.surface is None:
+            return cls(SMOOTH, None)
+        nodes = contact.shortest_wave(mesh) / contact.longest_cell(mesh)
+        verdict = RESOLVED if nodes >= RESOLVED_NODES else COARSE if nodes >= SEEN_NODES else GRIDS
+        return cls(verdict, nodes if isfinite(nodes) else None)
 
 
 ADVICE = {
@@ -64,7 +53,7 @@ def surface_words(verdict, nodes):
     """A verdict in words; nothing of smooth bodies."""
     if verdict not in ADVICE:
         return ""
-    if nodes is None or isinf(nodes):
+    if nodes is None:
         return "it has no waves"
     return f"{nodes:.1f} nodes in its shortest wave: {ADVICE[verdict]}"
 
@@ -82,18 +71,17 @@ def surface_lines(config, contact, mesh):
     """Lines of `mgehl check` about a surface: its heights in the contact, its waves, its place."""
     if contact.surface is None:
         return
-    rms, shortest = contact.roughness, contact.shortest_wave(mesh)
-    nodes = shortest / contact.longest_cell(mesh)
+    rms, seen = contact.roughness, SurfaceOnGrid.of(contact, mesh)
+    verdict, nodes = seen.verdict, seen.wave_nodes
     begun = " at the beginning" if config.is_in_time else ""
     film = "" if config.is_dry or stands_still(config) else _film_over(contact)
     heights = f"Sq {1e9 * rms:.4g} nm   Ssk {contact.skewness:.3g}"
     yield f"surface    {heights} (within the Hertz contact{begun}){film}"
-    verdict = surface_verdict(contact, nodes)
     # A filter's cut-off leaves a part of shorter ones.
     by_heights = any(part.function or isinstance(part, Measured) for _, part in parts_of(config))
     called = "shortest wave seen in the spectrum" if by_heights else "shortest wavelength"
-    wave = "" if isinf(shortest) else f"{called} {1e6 * shortest:.4g} um, "
-    yield f"           {wave}{surface_words(verdict, nodes)}{_recommended(verdict, nodes, mesh)}"
+    wave = nodes and f"{called} {1e6 * nodes * contact.longest_cell(mesh):.4g} um, "
+    yield f"           {wave or ''}{surface_words(verdict, nodes)}{_recommended(verdict, nodes, mesh)}"
     stands = not (config.is_in_time or config.is_dry)
     still = "; the rough body stands still, the other has 2 u" if stands else ""
     yield f"           a peak is positive and lowers the gap{still}"
