@@ -145,8 +145,8 @@ class Jacobian:
             self.linearisation.carried = None
         self.under_contact = None
         if self.linearisation.leak is not None and self.grid.has_lines:
-            self.under_contact = UnderContact(self.grid, self.linearisation)
-            self._in_contact = evaluation.status == CONTACT
+            touching = evaluation.status == CONTACT
+            self.under_contact = UnderContact(self.grid, self.linearisation, touching)
         self.mat.stateIncrease()
 
     def pressures(self, x):
@@ -182,9 +182,5 @@ class Jacobian:
             for offset, derivative in lin.carried.items():
                 self._out += derivative * shifted(self._dP, offset)
         if self.under_contact is not None:
-            self.under_contact.subtract(self._out, self._around_contact(), self._dH, dH0)
+            self.under_contact.subtract(self._out, self._dP, self._dH, dH0)
         return self._out
-
-    def _around_contact(self):
-        """The last corrections of what answers to the flow, ghosted: under contact it is not among them."""
-        return np.where(self._in_contact, 0.0, self._dP)

@@ -19,12 +19,12 @@ ROUNDING = 1e-12
 
 
 class UnderContact:
-    """p of the contact nodes of a `Linearisation` that has a `Leak` (the team's)."""
+    """p of the contact nodes, `touching` (ghosted), of a `Linearisation` with a `Leak` (the team's)."""
 
     @event(NEARBY)
-    def __init__(self, grid, linearisation):
+    def __init__(self, grid, linearisation, touching):
         leak = linearisation.leak
-        self._grid, self._leak = grid, leak
+        self._grid, self._leak, self._touching = grid, leak, touching
         self._nodes = NodeSet.where(grid, leak.nodes)
         self.here, self.some = leak.nodes, len(self._nodes) > 0
         """Which own nodes are under contact, and whether any rank has some."""
@@ -75,10 +75,11 @@ class UnderContact:
         flat = out.ravel()
         np.add.at(flat, rows, derivatives * values[numbers])
 
-    def subtract(self, out, answers, dH, dH0):
-        """out - C L^-1 R of changes around contact, in place."""
+    def subtract(self, out, dP, dH, dH0):
+        """out - C L^-1 R of corrections, ghosted, in place. Those of contact nodes are not the fluid's."""
         if self.some:
-            self.feed(out, -self.solve(self.inflow(answers, dH, dH0)))
+            around = np.where(self._touching, 0.0, dP)
+            self.feed(out, -self.solve(self.inflow(around, dH, dH0)))
 
 
 def factored(L):
