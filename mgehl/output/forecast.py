@@ -29,7 +29,6 @@ from mgehl.output.surroundings import cores_allowed
 from mgehl.solver.from_config import scheme_from, set_up
 from mgehl.solver.nested import planned_solves
 from mgehl.solver.pace import expected_steps
-from mgehl.solver.recipe import on_mesh
 
 TIMED = 5
 """Convolutions of which the quickest counts."""
@@ -111,8 +110,8 @@ def inlet_grids(case):
     """An `InletGrid` for each grid of the hierarchy of a loaded contact's `Case`, coarsest first."""
     parts, scene = set_up(case), case.scene if case.config.is_in_time else None
     # In the axes of the solve, whose X may be the user's y: other cells, other speeds.
-    settings = on_mesh(parts.settings, parts.contact, parts.mesh)
-    solves = planned_solves(meshes_of(parts.mesh, COARSEST_NODES), parts.contact, settings)
+    meshes = meshes_of(parts.mesh, COARSEST_NODES)
+    solves = planned_solves(meshes, parts.contact, parts.settings, parts.recipe())
     speeds = {level: solve.speed for level, solve, _ in solves}
     return [
         InletGrid(mesh.nx, inlet_cells(case.contact, mesh, scene), speeds.get(level))

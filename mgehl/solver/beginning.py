@@ -3,10 +3,9 @@
 from dataclasses import replace
 from functools import partial
 
-from mgehl.discretization.fluid import FOLDING
 from mgehl.solver.continuation import SPEED_RATIO, Continuation
 from mgehl.solver.nested import nested_iteration
-from mgehl.solver.recipe import IN_CONTACT, OTHER_SIDE, THICK_FILM, TOUCHING, on_mesh, recipe_of
+from mgehl.solver.recipe import IN_CONTACT, OTHER_SIDE, THICK_FILM, TOUCHING
 from mgehl.solver.recipe_words import NAMES
 
 COVERED = 1.5
@@ -25,19 +24,19 @@ NOR = "; nor from"
 def begin(task):
     """Solve a `Task` in the way that surface and mean of the mobility need, and from what else its `Recipe`
     names where that leads nowhere; as `nested_iteration`."""
-    recipe = recipe_of(task.settings, task.contact)
-    may_be_wrong = set(recipe.otherwise) & OTHER_SIDE.keys()
+    otherwise = task.recipe.otherwise
+    may_be_wrong = set(otherwise) & OTHER_SIDE.keys()
     first = task.within(OF_A_START) if may_be_wrong else task
-    others = [(NAMES[guess], partial(_from, guess)) for guess in recipe.otherwise]
+    others = [(NAMES[guess], partial(_from, guess)) for guess in otherwise]
     return first_found(task, [("as asked", lambda _: _as_asked(first)), *others])
 
 
 def _as_asked(task):
-    contact, settings = task.contact, task.settings
-    if settings.scheme.face_mobility not in FOLDING or recipe_of(settings, contact).peaks == TOUCHING:
-        return nested_iteration(replace(task, settings=on_mesh(settings, contact, task.mesh)))
-    if settings.start == IN_CONTACT:
-        return nested_iteration(task.but(newton=settings.newton.squeezed()))
+    recipe = task.recipe
+    if not recipe.scheme.may_fold or recipe.peaks == TOUCHING:
+        return nested_iteration(task)
+    if recipe.begins == IN_CONTACT:
+        return nested_iteration(replace(task, settings=task.settings.squeezed()))
     return Continuation(task).begin()
 
 

@@ -81,9 +81,8 @@ class Beside:
 
     def _solve_anew(self):
         """Problem and `Outcome` on the next coarser grid, from nothing."""
-        newton = self.settings.newton
-        limits = {"tolerance": max(TOLERANCE, newton.tolerance), "max_work": MAX_WORK_ANEW}
-        task = self._task.but(newton=replace(newton, **limits))
+        tolerance = max(TOLERANCE, self.settings.newton.tolerance)
+        task = self._task.limited(tolerance=tolerance, max_work=MAX_WORK_ANEW)
         return begin(replace(task, hierarchy=self._hierarchy.coarser()))
 
     def unthinned(self):
@@ -101,9 +100,8 @@ class Beside:
         known, _ = self._solved.get(level, (None, None))
         if known and known.contact is contact and known.scheme == scheme:
             return self._solved[level]
-        hierarchy, newton = self._hierarchy, self.settings.newton
-        limits |= {"tolerance": max(TOLERANCE, newton.tolerance)}
-        task = self._task.but(newton=replace(newton, **limits))
+        hierarchy, tolerance = self._hierarchy, max(TOLERANCE, self.settings.newton.tolerance)
+        task = self._task.limited(tolerance=tolerance, **limits)
         problem = ContactProblem(hierarchy.grids[level], hierarchy.deflections[level], contact, scheme)
         there = _at_nodes(hierarchy.transfers[level], state)
         self._solved[level] = problem, solve_near(task, problem, problem.with_own_gap(there))

@@ -5,6 +5,7 @@ from dataclasses import replace
 from mgehl.solver.nested import nested_iteration
 from mgehl.solver.on_grid import solve_near
 from mgehl.solver.problem import ContactProblem
+from mgehl.solver.recipe import FULL_FILM, recipe_of
 
 SMALLEST_STEP = 0.25
 """A step that failed is halved, down to this part of the first step; 0.05 to 1 do the same."""
@@ -18,7 +19,7 @@ class Continuation:
     on the way is not found, the problem that is returned is the one that was asked for."""
 
     def __init__(self, task):
-        self._task = task.but(newton=task.settings.newton.squeezed())
+        self._task = replace(task, settings=task.settings.squeezed())
 
     def begin(self):
         """Solve without a solution to begin with, by a mean whose flow has a fold: from the logarithmic
@@ -26,7 +27,9 @@ class Continuation:
         task, settings = self._task, self._task.settings
         speed = task.contact.matched_speed(task.mesh, settings.inlet_cells)
         first = replace(settings, scheme=replace(settings.scheme, face_mobility="logarithmic")).roughly()
-        problem, outcome = nested_iteration(replace(task.at_speed(speed), settings=first))
+        faster = replace(task.at_speed(speed), settings=first)
+        # By rounding the matched speed may miss the match: the grid sees that film none the less.
+        problem, outcome = nested_iteration(faster, recipe_of(first, faster.contact, FULL_FILM))
         if outcome.converged:
             walk = self._walk(speed == task.contact.speed)
             problem, outcome = in_steps(lambda t, state: walk.at(speed, state, t), outcome.state)

@@ -15,8 +15,8 @@ from mgehl.solver.recipe import (
     A_STATE,
     couette_scheme_of,
     interface_law,
-    on_mesh,
     recipe_of,
+    recipe_on,
     share_of_the_flow,
 )
 from mgehl.solver.relaxation import RelaxationSettings
@@ -36,8 +36,8 @@ class SetUp:
     def recipe(self, start=None, begins=None):
         """The `Recipe` of a loaded contact with a fluid, maybe from a `start`. It `begins` in the way that
         led to the answer, where that is another."""
-        settings = on_mesh(self.settings, self.contact, self.mesh)
-        recipe = recipe_of(settings, self.contact, start and A_STATE)
+        near = start and recipe_of(self.settings, self.contact, A_STATE)
+        recipe = near or recipe_on(self.mesh, self.settings, self.contact)
         return replace(recipe, begins=begins or recipe.begins)
 
     def hierarchy(self, comm):

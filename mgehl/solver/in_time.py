@@ -57,7 +57,7 @@ def march_beside(scene, task, times, told, start=None):
 def _steady(scene, task):
     """The steady problem at the beginning and its `Outcome`, solved beyond what steps are."""
     newton, steps = task.settings.newton, task.settings.time
-    finer = task.but(newton=replace(newton, tolerance=min(newton.tolerance, AHEAD * steps.least)))
+    finer = task.limited(tolerance=min(newton.tolerance, AHEAD * steps.least))
     return begin(replace(finer, contact=scene.instant(task.contact, 0.0)))
 
 

@@ -33,47 +33,48 @@ THICKER = 3.0
 make films up to three times as thick. From the formula's own it takes up to six times the work."""
 
 
-def nested_iteration(task):
-    """Solve the contact of a `Task`, coarse grids first; return its `ContactProblem` and its `Outcome`."""
+def nested_iteration(task, recipe=None):
+    """Solve the contact of a `Task` by its `Recipe`, or by another one, coarse grids first; return its
+    `ContactProblem` and its `Outcome`."""
     hierarchy, contact, settings = task.hierarchy, task.contact, task.settings
-    reached, outcome = None, None
-    for level, solve, own in planned_solves([grid.mesh for grid in hierarchy.grids], contact, settings):
+    recipe, reached, outcome = recipe or task.recipe, None, None
+    meshes = [grid.mesh for grid in hierarchy.grids]
+    for level, solve, own in planned_solves(meshes, contact, settings, recipe):
         grid, deflection = hierarchy.grids[level], hierarchy.deflections[level]
-        seen = contact.at_speed(solve.speed).seen_by(grid.mesh, hierarchy.grids[-1].mesh)
+        seen = contact.at_speed(solve.speed).seen_by(grid.mesh, task.mesh)
         problem = ContactProblem(grid, deflection, seen, settings.scheme)
+        here = recipe_of(own, seen, recipe.begins)
         if outcome is None:
             P = guess_on_finest(hierarchy, contact, settings.scheme) if solve.finest else None
-            state = first_guess(problem, recipe_of(own, seen).begins, P)
+            state = first_guess(problem, here.begins, P)
         elif level == reached:
             state = problem.with_own_gap(outcome.state)
         else:
             state = interpolate(hierarchy.transfers[level - 1], problem, outcome.state)
-        reached, outcome = level, _solve(task, problem, state, own, solve)
+        reached, outcome = level, _solve(task, problem, state, here, solve)
         if not outcome.cycles[-1].residual < DIVERGED:
             break  # nothing to start the next grid from; the outcome says why
     return problem, outcome
 
 
-def _solve(task, problem, state, settings, solve):
-    """Solve from a state, by its own `SolverSettings`; where that leads nowhere, anew by time steps."""
-    squeezed = replace(settings, newton=settings.newton.squeezed())
-    recipe, patient = (recipe_of(each, problem.contact) for each in (settings, squeezed))
+def _solve(task, problem, state, recipe, solve):
+    """Solve from a state by its own `Recipe`; where that leads nowhere, anew by time steps."""
     if recipe.newton.squeeze > 0.0:
         return solve_on(task, problem, state, recipe, solve)
     outcome = solve_on(task, problem, state.copy(), recipe, solve)
     if outcome.converged or not task.may_go_on:
         return outcome
     news = f"not found: {outcome.reason}; now by time steps"
-    return solve_on(task, problem, state, patient, replace(solve, news=news))
+    return solve_on(task, problem, state, replace(recipe, newton=recipe.patient), replace(solve, news=news))
 
 
 def single_loop(task, state=None):
     """Solve by the paper's relaxation, on the finest grid alone; else as `nested_iteration`."""
-    problem, settings = task.problem(), task.settings
+    problem = task.problem()
     if state is None:
-        state = first_guess(problem, recipe_of(settings, task.contact).begins)
+        state = first_guess(problem, task.recipe.begins)
     tell = partial(task.monitor, LevelSolve(task.mesh.nx, task.contact.speed, True))
-    return problem, relax(problem, state, settings.relaxation, tell, task.journal)
+    return problem, relax(problem, state, task.settings.relaxation, tell, task.journal)
 
 
 def first_guess(problem, begins, P=None):
@@ -119,10 +120,10 @@ def interpolate(transfer, problem, coarse):
     return problem.state(P, coarse.H0, status, transfer.bilinear(coarse.p))
 
 
-def planned_solves(meshes, contact, settings):
-    """(Level, `LevelSolve`, its `SolverSettings`) of what is solved on which of the `meshes`, coarsest
-    first, at speeds that coarse grids resolve and that do not lift the bodies off each other."""
-    before, recipe = None, recipe_of(settings, contact)
+def planned_solves(meshes, contact, settings, recipe):
+    """(Level, `LevelSolve`, its `SolverSettings`) of what is solved on which of the `meshes` by a `Recipe`,
+    coarsest first, at speeds that coarse grids resolve and that do not lift the bodies off each other."""
+    before = None
     for level, speed in _speeds_on_levels(meshes, contact, settings, recipe.on_coarse_grids):
         finest = level == len(meshes) - 1
         for each in _on_the_way(before or speed, speed, recipe.most_slower):

@@ -6,15 +6,15 @@
     near        3L             a full film        coarse grids    lines in valleys        corrections
     touching    3L             the dry contact    the finest      lines in valleys        corrections
 
-A film that the finest grid hardly sees begins there alone (`on_mesh`). Keys overrule the recipe. A contact
-at another speed, or as a coarser grid sees it, has its own.
+A film that the finest grid hardly sees begins there alone. Keys overrule the recipe. That in force is
+`Task.recipe`; a contact at another speed, or as a coarser grid sees it, has its own.
 """
 
 from dataclasses import dataclass, replace
 from math import inf
 
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions
-from mgehl.discretization.fluid import ARITHMETIC, FOLDING, MONOTONE
+from mgehl.discretization.fluid import ARITHMETIC, MONOTONE
 from mgehl.discretization.scheme import Scheme
 from mgehl.multigrid.cycle import DIRECT, DIRECT_IN_TIME, CycleSettings
 from mgehl.solver.settings import PASSING_TOLERANCE, NewtonSettings
@@ -90,13 +90,25 @@ class Recipe:
     otherwise: tuple
     """First guesses from which it begins anew, one after the other, where the first leads nowhere."""
     newton: NewtonSettings
+    patient: NewtonSettings
+    """Newton's rules where those lead nowhere: the same by time steps."""
     cycle: CycleSettings
 
 
-def recipe_of(settings, contact, begins=None):
-    """The `Recipe` of a loaded contact by what `SolverSettings` ask; `begins` may be `A_STATE`."""
+def recipe_on(mesh, settings, contact):
+    """The `Recipe` of a loaded contact by what `SolverSettings` ask on its finest mesh. Where that hardly
+    sees the film that is asked for, coarse grids tell nothing. Smooth bodies, and peaks under a film; from
+    higher speeds on they take twice the work."""
+    recipe, scheme = recipe_of(settings, contact, settings.start), settings.scheme
+    may_be_unseen = recipe.on_coarse_grids and scheme.contact_law.is_continuous and not scheme.may_fold
+    if may_be_unseen and contact.matched_speed(mesh, settings.inlet_cells) != contact.speed:
+        return recipe_of(settings, contact, UNSEEN_FILM)
+    return recipe
+
+
+def recipe_of(settings, contact, start):
+    """The same from one of the first guesses."""
     law, peaks = settings.scheme.contact_law, _peaks(settings.scheme.contact_law, contact)
-    start = begins or settings.start
     closed = start == IN_CONTACT and law.has_contact
     touching, rough = peaks == TOUCHING, peaks != NONE
     guess = _first_guess(start, law, contact) if touching else start
@@ -111,6 +123,7 @@ def recipe_of(settings, contact, begins=None):
         most_slower=MOST_SLOWER if law.closes_faces else inf,
         otherwise=_otherwise(settings, start, guess, touching),
         newton=_newton(settings, contact, peaks, squeezed=closed or touching or start == UNSEEN_FILM),
+        patient=_newton(settings, contact, peaks, squeezed=True),
         cycle=replace(
             settings.cycle, direct=DIRECT if rough else 0, rough=rough, in_valleys=peaks in (NEAR, TOUCHING)
         ),
@@ -142,7 +155,7 @@ def _peaks(law, contact):
 def _first_guess(start, law, contact):
     """That of peaks that touch: the thinnest film and no node in contact, for with contact everywhere nodes
     would open and close for ever. Where the film is thin beside the layers, solids carry nearly all."""
-    if start in (A_STATE, DRY):
+    if start not in OTHER_SIDE:
         return start
     if contact.expected_film / contact.film_scale < BESIDE_LAYERS * law.contact_gap:
         return DRY
@@ -162,7 +175,7 @@ def _otherwise(settings, start, guess, touching):
 def _newton(settings, contact, peaks, squeezed):
     """Newton's rules; `squeezed` steps have a squeeze at the least."""
     scheme, rough = settings.scheme, contact.is_rough
-    asked = settings.newton.squeezed() if squeezed else settings.newton
+    asked = (settings.squeezed() if squeezed else settings).newton
     by_film, passes_folds = scheme.contact_law.is_continuous, scheme.may_fold or asked.squeeze > 0.0
     goes_on = by_film and (asked.squeeze > 0.0 or peaks not in (NONE, COVERED))
     idle = asked.max_steps if goes_on else IDLE_SQUEEZED if passes_folds else IDLE
@@ -183,18 +196,6 @@ def _more(contact):
     """How many times as much pressures may change as where the viscosity is steep; at least 1."""
     alpha_bar = contact.lubricant.pressure_viscosity * contact.pressure_scale
     return min(max(1.0, STEEP / max(alpha_bar, ALMOST_NOTHING)), MOST_MORE)
-
-
-def on_mesh(settings, contact, mesh):
-    """The `SolverSettings` for a mesh: where it hardly sees the film that is asked for, coarse grids tell
-    nothing. Smooth bodies, and peaks under a film; from higher speeds on they take twice the work."""
-    law = settings.scheme.contact_law
-    seen = contact.matched_speed(mesh, settings.inlet_cells) == contact.speed
-    otherwise = settings.scheme.face_mobility in FOLDING or settings.method == "relaxation"
-    otherwise |= not law.is_continuous or _peaks(law, contact) == TOUCHING
-    if settings.start != FULL_FILM or seen or otherwise:
-        return settings
-    return replace(settings, start=UNSEEN_FILM)
 
 
 def couette_scheme_of(contact):

@@ -14,7 +14,6 @@ from mgehl.solver.beginning import OF_A_START, begin, first_found
 from mgehl.solver.continuation import Continuation
 from mgehl.solver.gaps import within_hertz
 from mgehl.solver.nested import single_loop
-from mgehl.solver.recipe import on_mesh, recipe_of
 
 FORECAST_STEPS = 40
 """Newton steps that a forecast may take before the way from the nearest solution is taken instead: the
@@ -152,8 +151,7 @@ def solve_from(task, start, frame):
 def _from_nothing(task):
     """Problem and `Outcome` of a `Task` without another run's fields."""
     problem, outcome = begin(task)
-    seen = on_mesh(task.settings, task.contact, problem.grid.mesh)
-    return problem, replace(outcome, begins=outcome.begins or recipe_of(seen, task.contact).begins)
+    return problem, replace(outcome, begins=outcome.begins or task.recipe.begins)
 
 
 def _from_fields(task, start, frame):

@@ -53,10 +53,6 @@ class NewtonSettings:
     in_time: bool = False
     """Whether the state is one of many, near the one before: it is solved no further than is asked."""
 
-    def squeezed(self):
-        """The same with a squeeze of `SQUEEZE` at the least."""
-        return replace(self, squeeze=max(self.squeeze, SQUEEZE))
-
 
 @dataclass(frozen=True)
 class TimeSettings:
@@ -92,12 +88,18 @@ class SolverSettings:
     error: bool = SolverSection.error
     """Whether coarser grids are solved, too, to tell how far the films are from their limit."""
 
+    def limited(self, **newton):
+        """The same with other limits of Newton's method."""
+        return replace(self, newton=replace(self.newton, **newton))
+
     def roughly(self):
         """The same for solves whose answers only lead to others, as those of coarse grids."""
-        newton = replace(self.newton, tolerance=COARSE_TOLERANCE)
-        return replace(self, newton=newton)
+        return self.limited(tolerance=COARSE_TOLERANCE)
 
     def in_passing(self):
         """The same for solves that are only on the way to the next one on their grid."""
-        newton = replace(self.newton, tolerance=PASSING_TOLERANCE, certain=PASSING_TOLERANCE)
-        return replace(self, newton=newton)
+        return self.limited(tolerance=PASSING_TOLERANCE, certain=PASSING_TOLERANCE)
+
+    def squeezed(self):
+        """The same by time steps: with a squeeze of `SQUEEZE` at the least."""
+        return self.limited(squeeze=max(self.newton.squeeze, SQUEEZE))

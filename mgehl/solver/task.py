@@ -1,10 +1,12 @@
 """What the solver is asked for, made once at its door and handed through all ways to an answer."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from mgehl.grid.hierarchy import Hierarchy
 from mgehl.solver.journal import NOTHING_KEPT, Journal
 from mgehl.solver.problem import ContactProblem
+from mgehl.solver.recipe import recipe_on
 from mgehl.solver.settings import SolverSettings
 
 
@@ -23,6 +25,11 @@ class Task:
     def mesh(self):
         """The finest one."""
         return self.hierarchy.grids[-1].mesh
+
+    @cached_property
+    def recipe(self):
+        """The `Recipe` of its solve from nothing."""
+        return recipe_on(self.mesh, self.settings, self.contact)
 
     def problem(self):
         """The `ContactProblem` on the finest grid."""
@@ -44,7 +51,10 @@ class Task:
         made = comm.bcast(hierarchy.convolutions, root=comm.size - 1)  # the last rank has all grids
         return made < self.settings.newton.max_work
 
+    def limited(self, **newton):
+        """The same with other limits of Newton's method."""
+        return replace(self, settings=self.settings.limited(**newton))
+
     def within(self, part):
         """The same with a part of the work that is allowed (`solver.max_work`)."""
-        newton = self.settings.newton
-        return self.but(newton=replace(newton, max_work=part * newton.max_work))
+        return self.limited(max_work=part * self.settings.newton.max_work)

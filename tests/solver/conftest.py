@@ -18,7 +18,7 @@ def make_newton(make_hierarchy, paper_contact, in_the_end):
         contact, scheme = contact or paper_contact(), scheme or Scheme()
         hierarchy = make_hierarchy(contact, 65)
         problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, scheme)
-        recipe = recipe_of(SolverSettings(scheme=scheme, newton=NewtonSettings(**limits)), contact)
+        recipe = recipe_of(SolverSettings(scheme=scheme, newton=NewtonSettings(**limits)), contact, "film")
         multigrid = MultigridSolver(hierarchy, 1, contact, scheme, recipe.cycle)
         return problem, in_the_end(kind.free, kind(problem, multigrid, recipe.newton, monitor))
 

@@ -91,7 +91,7 @@ class TestFromAThickFilm:
         assert means == pytest.approx(3 * means[:1], rel=1e-6)
 
     def test_where_both_fail_the_state_is_of_the_contact_s_own_speed(self, task):
-        problem, outcome = begin(task.but(newton=replace(task.settings.newton, max_steps=2)))
+        problem, outcome = begin(task.limited(max_steps=2))
         assert not outcome.converged and problem.contact.speed == task.contact.speed
         assert f"after 2 steps{NOR} the dry contact without oil: " in outcome.reason
         assert f"after 2 steps{NOR} a thick film: a stage on the way" in outcome.reason
