@@ -114,6 +114,16 @@ class SolverSection:
     error: bool = switch(True, "whether coarser grids are solved, too, for bands: two, in time or dry one")
     # fmt: on
 
+    @property
+    def by_newton(self):
+        """Whether it is Newton's method, not the relaxation."""
+        return self.method == "newton-mg"
+
+    @property
+    def from_film(self):
+        """Whether the first guess is a film, not contact."""
+        return self.start == "film"
+
 
 @dataclass(frozen=True)
 class RelaxationSection:

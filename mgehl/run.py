@@ -146,7 +146,7 @@ def _find_on(hierarchy, case, parts, watch, start):
     kind, tolerance = progress.newton_row, parts.settings.newton.tolerance
     if case.config.is_dry:
         kind = progress.dry_row
-    elif parts.settings.method != "newton-mg":
+    elif not parts.settings.by_newton:
         kind, tolerance = progress.sweep_row, parts.settings.relaxation.tolerance
     monitor = progress.Progress(kind, parts.contact.film_scale, hierarchy, tolerance, watch.speaker)
     solve = _LoadedSolve(case, parts, hierarchy, monitor, watch, start)
@@ -180,7 +180,7 @@ class _LoadedSolve:
 
     def _solved(self):
         """Problem, `Outcome` and number of steps."""
-        task, by_newton = self._task, self.parts.settings.method == "newton-mg"
+        task, by_newton = self._task, self.parts.settings.by_newton
         method = begin if by_newton else single_loop
         if self.start:
             method = partial(solve_from, start=self.start, frame=self.parts.frame)

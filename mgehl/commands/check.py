@@ -105,9 +105,9 @@ def _inlet(case):
         at = "" if grid.speed is None else f"   solved at {speed_words(grid.speed)}"
         yield f"grid {grid.nodes:5d}   {grid.cells:8.2f} cells in the inlet{at}"
     yield ""
-    start, shuts = config.solver.start, scheme_from(config, contact).contact_law.closes_faces
-    expected = resolution.expectation(grids[-1].cells, start, contact.is_mixed, shuts)
-    yield f"expected   from a {start} start, {expected}"
+    solver, shuts = config.solver, scheme_from(config, contact).contact_law.closes_faces
+    expected = resolution.expectation(grids[-1].cells, solver.from_film, contact.is_mixed, shuts)
+    yield f"expected   from a {solver.start} start, {expected}"
     on_domain = resolution.domain_words(found)
     peaks = resolution.peaks_words(contact, mesh)
     yield from _under("domain", [resolution.room_words(mesh), on_domain, *peaks])

@@ -49,7 +49,7 @@ class DryKind(LoadedKind):
 
     def check_keys(self, config):
         """The relaxation is a method for a fluid."""
-        if config.solver.method == "relaxation":
+        if not config.solver.by_newton:
             raise ConfigError(
                 'solver.method = "relaxation": means nothing where discretization.contact_model = "dry"'
             )

@@ -119,9 +119,9 @@ class LoadedKind(Kind):
 
     def effort(self, config):
         """The `Effort` of the relaxation or of Newton's method."""
-        if config.solver.method != "relaxation":
+        if config.solver.by_newton:
             effort = self.newton_effort(config)
-            return _with_bands(effort) if config.solver.error and config.solver.start == "film" else effort
+            return _with_bands(effort) if config.solver.error and config.solver.from_film else effort
         sweeps = float(config.relaxation.max_sweeps)
         return replace(RELAXATION, convolutions=sweeps)
 

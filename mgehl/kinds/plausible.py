@@ -183,7 +183,7 @@ def _films(config, contact):
     if film > THICKEST["piezoviscous" in contact.regime]:
         yield f"film of {1e6 * film:.3g} um by a formula: look at viscosity, speed and radii"
     threshold = config.discretization.film_threshold
-    if config.solver.start == "film" and not contact.is_rough and film < threshold:
+    if config.solver.from_film and not contact.is_rough and film < threshold:
         yield (
             f"film of {1e9 * film:.3g} nm by a formula: below discretization.film_threshold = "
             f"{1e9 * threshold:.3g} nm bodies count as in contact"

@@ -123,7 +123,7 @@ class PointKind(LoadedKind):
 
     def newton_effort(self, config):
         """By the start and the mean of the mobility."""
-        if config.solver.start == "contact":
+        if not config.solver.from_film:
             return CONTACT
         return MEAN if config.discretization.face_mobility in FOLDING else FILM
 

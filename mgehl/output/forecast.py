@@ -178,7 +178,7 @@ def effort_of(config, contact, mesh):
 def _steady_effort(config, contact, mesh):
     """That of the kind; of a ball by its peaks, or by what the grid sees of its inlet."""
     by_kind = config.kind.effort(config)
-    if not contact.is_loaded or config.is_dry or config.solver.method != "newton-mg":
+    if not contact.is_loaded or config.is_dry or not config.solver.by_newton:
         return by_kind
     if mesh.is_line:
         if not contact.roughness:
@@ -191,7 +191,7 @@ def _steady_effort(config, contact, mesh):
     if contact.is_mixed:
         return replace(ROUGH, convolutions=_of_peaks(contact, config.contact.boundary_film > 0.0, mesh))
     shuts = scheme_from(config, contact).contact_law.closes_faces
-    if config.solver.start == "contact" and shuts:
+    if shuts and not config.solver.from_film:
         return SIDE_BY_SIDE if cells > CONTACT_OPENS else by_kind
     return (SHUT if shuts else UNSEEN) if cells < FILM_TOUCHES else by_kind
 

@@ -145,8 +145,8 @@ def resolving_nodes(contact, mesh, scene=None):
     return surface.refined(COARSEST_NODES, cells, RESOLVED_CELLS)
 
 
-def expectation(cells, start, is_mixed, shuts):
-    """What a run finds with so many cells in its inlet from a `start`. `is_mixed`: peaks reach through the
+def expectation(cells, from_film, is_mixed, shuts):
+    """What a run finds with so many cells in its inlet, by its start. `is_mixed`: peaks reach through the
     film. `shuts`: contact shuts its faces."""
     if is_mixed:
         return "a film that the highest peaks may reach through: the run tells how much they carry"
@@ -156,7 +156,7 @@ def expectation(cells, start, is_mixed, shuts):
         return "a film that changes with the grid"
     if not shuts:
         return "a film that the grid does not see: it and any contact are the grid's"
-    if start == "contact" and cells < CONTACT_OPENS:
+    if not from_film and cells < CONTACT_OPENS:
         return "full contact, whose inlet the grid does not see"
     return "film and contact side by side; where they meet is decided by the grid"
 

@@ -98,6 +98,6 @@ def settings_from(config, contact):
 
 
 def _keys_of(settings, section):
-    """Those fields of a class of settings that are keys of a section, with its values."""
+    """Those fields of a class of settings that a section has, too, with its values."""
     names = (each.name for each in fields(settings) if hasattr(section, each.name))
     return {name: getattr(section, name) for name in names}

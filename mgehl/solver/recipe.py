@@ -119,7 +119,7 @@ def recipe_of(settings, contact, start):
         # Coarse grids do not see the peaks, and the dry contact's pressure is nearer to the answer than
         # that of any film. From the dry contact a film twice as thick as the roughness takes twice the
         # work, and one three times as thick is not found (random balls, 257 nodes).
-        on_coarse_grids=start == FULL_FILM and not touching and settings.method != "relaxation",
+        on_coarse_grids=start == FULL_FILM and not touching and settings.by_newton,
         most_slower=MOST_SLOWER if law.closes_faces else inf,
         otherwise=_otherwise(settings, start, guess, touching),
         newton=_newton(settings, contact, peaks, squeezed=closed or touching or start == UNSEEN_FILM),
@@ -168,7 +168,7 @@ def _otherwise(settings, start, guess, touching):
     if touching and start == FULL_FILM:
         return tuple(each for each in (DRY, THICK_FILM) if each != guess)
     law = settings.scheme.contact_law
-    shuts = law.closes_faces and law.has_contact and settings.method != "relaxation"
+    shuts = law.closes_faces and law.has_contact and settings.by_newton
     return (OTHER_SIDE[start],) if shuts and start in OTHER_SIDE else ()
 
 

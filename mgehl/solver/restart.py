@@ -139,7 +139,7 @@ def solve_from(task, start, frame):
     faces is not: there two states may be answers, and a start names the one that is meant.
     """
     settings = task.settings
-    if settings.method != "newton-mg" or not settings.scheme.contact_law.is_continuous:
+    if not settings.by_newton or not settings.scheme.contact_law.is_continuous:
         return _from_fields(task, start, frame)
     from_start = partial(_from_fields, start=start, frame=frame)
     ways = [("that start", lambda task: from_start(task.within(OF_A_START))), ("nothing", _from_nothing)]
@@ -159,7 +159,7 @@ def _from_fields(task, start, frame):
     problem, contact, settings = task.problem(), task.contact, task.settings
     forecast, start = (start, start.last) if isinstance(start, Forecast) else (None, start)
     state = interpolated(problem, start, frame)
-    if settings.method != "newton-mg":
+    if not settings.by_newton:
         return single_loop(task, state)
     continuation = Continuation(task)
     if forecast:

@@ -70,8 +70,8 @@ class TimeSettings:
 class SolverSettings:
     """All that the solver may be told."""
 
-    method: str = SolverSection.method
-    """"newton-mg", or the paper's "relaxation" on the finest grid alone."""
+    by_newton: bool = True
+    """Whether by Newton's method, not by the paper's relaxation on the finest grid alone."""
     scheme: Scheme = field(default_factory=Scheme)
     start: str = SolverSection.start
     """The user's "film" or "contact", or another first guess of `mgehl.solver.recipe`."""

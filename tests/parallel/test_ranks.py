@@ -156,7 +156,7 @@ class TestRelaxation:
         speed, start = CASES[case]
         contact = paper_contact(speed)
         settings = SolverSettings(
-            method="relaxation", start=start,
+            by_newton=False, start=start,
             relaxation=RelaxationSettings(fluid_update=update, contact_update=update, omega=0.2,
                                           max_sweeps=6),
         )  # fmt: skip

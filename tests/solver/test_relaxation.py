@@ -28,7 +28,7 @@ class TestRuns:
         limits = RelaxationSettings(**settings)
         law = InterfaceConditions(0.02e-9 / contact.film_scale)
         scheme = Scheme(cavitation=cavitation, contact_law=law)
-        everything = SolverSettings(method="relaxation", scheme=scheme, relaxation=limits)
+        everything = SolverSettings(by_newton=False, scheme=scheme, relaxation=limits)
         task = Task(hierarchy, contact, everything, lambda *each: told.append(each))
         problem, outcome = single_loop(task)
         return hierarchy, problem, outcome, told
