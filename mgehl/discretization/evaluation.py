@@ -1,6 +1,6 @@
 """One state on one grid, evaluated: each quantity once, when it is first asked for."""
 
-from dataclasses import replace
+from dataclasses import InitVar, dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -10,71 +10,64 @@ from mgehl.discretization.face_gap import flows_past_edges
 from mgehl.discretization.faces import carried, conductances, flows, mobility_of_faces
 from mgehl.discretization.fluid import fluid_state
 from mgehl.discretization.kernels import flow_sources
+from mgehl.discretization.mesh import Mesh
+from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT
-
-PARTS = "P", "H", "status", "mesh", "contact", "scheme", "fluid", "filling", "storage", "gaps"
-"""What an `Evaluation` is made of."""
+from mgehl.discretization.storage import Storage
 
 
+@dataclass(frozen=True, eq=False)
 class Evaluation:
     """What the pressure, gap and status of a state, all ghosted, mean for the flow, each part computed
     once. It holds what the state was when it was made: one that has changed is evaluated anew, or its
     evaluation is told of the new pressure."""
 
-    def __init__(
-        self, P, H, status, mesh, contact, scheme, fluid=None, filling=None, storage=None, gaps=None
-    ):  # fmt: skip
-        self.P, self.H, self.status, self.filling = P, H, status, filling
-        self.storage = storage
-        """The `Storage` of a time step, which the balance of every node has; None of what is steady."""
-        self.mesh, self.contact, self.scheme = mesh, contact, scheme
-        self.axes = axes_of(mesh, scheme.motion)
-        self.gaps = gaps
-        """The `FaceGap` along each axis, H being 1; None where the gap is that of nodes."""
-        self.fluid = self._evaluated_fluid() if fluid is None else fluid
+    P: np.ndarray
+    H: np.ndarray
+    status: np.ndarray
+    mesh: Mesh
+    contact: object
+    scheme: Scheme
+    filling: np.ndarray | None = None
+    storage: Storage | None = None
+    """That of a time step, which the balance of every node has; None of what is steady."""
+    gaps: list | None = None
+    """The `FaceGap` along each axis, H being 1; None where the gap is that of nodes."""
+    known: InitVar[dict | None] = None
+    """Parts that need not be computed, by their names."""
 
-    def _evaluated_fluid(self):
-        touching, torn = self.status == CONTACT, self.status == CAVITATED
-        cavities = (torn, self.filling) if self.filling is not None and torn.any() else (None, None)
-        where, tears = (touching, *cavities), self.scheme.cavitation
-        return fluid_state(self.P, self.H, self.contact, self.scheme.contact_law, *where, tears)
+    def __post_init__(self, known):
+        vars(self).update(known or {})
+        _ = self.fluid  # of the state as it is now
 
     def by(self, scheme):
         """The same state and fluid, differenced by another scheme of the same contact law."""
         if scheme == self.scheme:
             return self
-        other = self._but(scheme=scheme)
-        if scheme.mean == self.scheme.mean:
-            other.mobilities = self.mobilities
-        return other
+        known = {"mobilities": self.mobilities} if scheme.mean == self.scheme.mean else {}
+        return replace(self, scheme=scheme, known=known | {"fluid": self.fluid})
 
     def filled(self, filling):
         """The same with other contents of the cavities; full ones where `filling` is None."""
         torn = None if filling is None else self.status == CAVITATED
         contents = (torn, np.where(torn, filling, 1.0)) if torn is not None and torn.any() else (None, None)
         fluid = replace(self.fluid, torn=contents[0], filling=contents[1])
-        other = self._but(fluid=fluid, filling=filling)
-        other.mobilities = self.mobilities
-        return other
+        return replace(self, filling=filling, known={"fluid": fluid, "mobilities": self.mobilities})
 
     def of_lines(self, lines):
         """The same of some of its own `lines` alone (a slice): views."""
         ghosted = slice(lines.start, lines.stop + 2 * HALO)
         state = (array[ghosted] for array in (self.P, self.H, self.status))
-        part = Evaluation(*state, self.mesh, self.contact, self.scheme, self.fluid.of(ghosted))
-        of_axes = zip(self.axes, self.mobilities, strict=True)
-        part.mobilities = [mobility.of_lines(axis, lines) for axis, mobility in of_axes]
-        if self.gaps is not None:
-            part.gaps = [gap.of_lines(axis, lines) for axis, gap in zip(self.axes, self.gaps, strict=True)]
-        return part
+        gaps, mobilities = (
+            parts and [part.of_lines(axis, lines) for axis, part in zip(self.axes, parts, strict=True)]
+            for parts in (self.gaps, self.mobilities)
+        )
+        known = {"fluid": self.fluid.of(ghosted), "mobilities": mobilities}
+        return Evaluation(*state, self.mesh, self.contact, self.scheme, gaps=gaps, known=known)
 
     def with_mobility(self, eps):
         """The same state with another ghosted mobility, which neither pressure nor gap moves."""
-        return self._but(fluid=self.fluid.with_mobility(eps))
-
-    def _but(self, **other):
-        """The same but for some `other` parts."""
-        return Evaluation(**{name: getattr(self, name) for name in PARTS} | other)
+        return replace(self, known={"fluid": self.fluid.with_mobility(eps)})
 
     def forget(self):
         """Drop what was found of the faces; it is found again when it is asked for."""
@@ -87,9 +80,17 @@ class Evaluation:
         self.__dict__.pop("fluid", None)
 
     @cached_property
+    def axes(self):
+        """Those along which faces pass fluid."""
+        return axes_of(self.mesh, self.scheme.motion)
+
+    @cached_property
     def fluid(self):
         """The `Fluid` at the nodes."""
-        return self._evaluated_fluid()
+        touching, torn = self.status == CONTACT, self.status == CAVITATED
+        cavities = (torn, self.filling) if self.filling is not None and torn.any() else (None, None)
+        where, tears = (touching, *cavities), self.scheme.cavitation
+        return fluid_state(self.P, self.H, self.contact, self.scheme.contact_law, *where, tears)
 
     @cached_property
     def mobilities(self):
