@@ -1,5 +1,4 @@
 import json
-from dataclasses import replace
 from shutil import copytree, rmtree
 from types import SimpleNamespace
 
@@ -145,8 +144,7 @@ def test_what_nothing_leads_to_is_found_from_the_point_after_it(tmp_path, monkey
 
     def first_fails(task):
         hurried.append(task)
-        newton = replace(task.settings.newton, max_steps=1 if len(hurried) == 1 else 200)
-        return begin(replace(task, settings=replace(task.settings, newton=newton)))
+        return begin(task.limited(max_steps=1 if len(hurried) == 1 else 200))
 
     monkeypatch.setattr(run_module, "begin", first_fails)
     assert main([*SWEEP, str(tmp_path / "film")]) == 0
