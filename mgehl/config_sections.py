@@ -104,8 +104,6 @@ class SolverSection:
         high=0.5)
     sweeps: int = whole(1, "line relaxations after the coarse grids", 1, 10)
     omega: float = number(0.8, "damping of the line relaxation", low=0.1, high=1.0)
-    cycle_couette: str = word("same", "differential scheme of the preconditioner's operators",
-        ("same", *SCHEMES))
     first_nodes: int = whole(65, "nodes of the first grid of the nested iteration", 33)
     inlet_cells: float = number(2.0, "cells the inlet gets on coarse grids by raising the speed", low=0.0,
         high=1000.0)

@@ -237,7 +237,6 @@ KINDS = {
     "line": {
         "contact": {"kind": "line", "load_per_length": "1859 N/mm", "surface": "/there/mine.py:waves"},
         "grid": {"x": [-2.5, 1.5]},
-        "solver": {"cycle_couette": "1B"},
         "discretization": {"couette": "2B"},
     },
     "wedge": {

@@ -45,8 +45,7 @@ def test_a_file_to_open_is_there(file):
 
 @pytest.mark.parametrize(
     "name",
-    ["model.lubricant.VISCOSITY_LAWS", "model.surface.files.read_map", "discretization.couette.SCHEMES",
-     "multigrid.cycle.IN_THE_CYCLE"],
-)  # fmt: skip
+    ["model.lubricant.VISCOSITY_LAWS", "model.surface.files.read_map", "discretization.couette.SCHEMES"],
+)
 def test_what_to_change_there_has_the_name_that_contributing_tells(name):
     assert found(f"mgehl.{name}") and f"`{name.rpartition('.')[2]}`" in CONTRIBUTING

@@ -31,6 +31,11 @@ class CouetteScheme:
     def conservative(self):
         return self.leaving == self.entering
 
+    @property
+    def is_central(self):
+        """Whether the flow is of the two nodes beside the face, alike."""
+        return nodes_of(self.leaving) == {W, E}
+
     def limited(self):
         """The same within 3L's limit."""
         return self if self.leaving == _1B else replace(self, limit=min(self.limit, _HALF))

@@ -24,7 +24,7 @@ OF_A_FLUID = (
     "discretization.couette", "discretization.face_mobility", "discretization.unified_gap",
     "discretization.couette_at_interface", "discretization.cavitation", "discretization.film_threshold",
     "solver.method", "solver.start", "solver.linear_tolerance", "solver.sweeps", "solver.omega",
-    "solver.cycle_couette", "solver.first_nodes", "solver.inlet_cells", "solver.squeeze",
+    "solver.first_nodes", "solver.inlet_cells", "solver.squeeze",
     "solver.idle_steps",
 )  # fmt: skip
 """Sections and keys that only a fluid uses. A dry contact accepts them and does nothing with them."""

@@ -30,9 +30,6 @@ from mgehl.multigrid.memory import Memory
 from mgehl.multigrid.options import by_default
 from mgehl.multigrid.smoother_choice import smoother_of
 
-IN_THE_CYCLE = {"2C": "3B", "S2C": "3B"}
-"""The cycle's Couette schemes where the solved one leaves waves of two cells, which lines do not damp."""
-
 DIRECT = 4097
 """Most nodes of a line between rough bodies that is solved directly: coarse grids do not see the peaks
 through which valleys are coupled, and a third of such contacts are not found by the cycle."""
@@ -57,8 +54,6 @@ class CycleSettings:
     """Line relaxations after the coarse grids: each but the first takes a convolution on every grid."""
     omega: float = SolverSection.omega
     """Damping of the line relaxation: with 0.7 and 0.9 up to a third more work."""
-    couette: str = SolverSection.cycle_couette
-    """Couette scheme of the cycle's operators; "same" is the one that is solved."""
     direct: int = 0
     """Most nodes of a line that is solved directly."""
     rough: bool = False
@@ -73,7 +68,7 @@ class MultigridSolver:
     def __init__(self, hierarchy, level, contact, scheme, settings=CycleSettings()):
         self._hierarchy, self._oblique = hierarchy, scheme.is_oblique
         self._rough, self._in_valleys, self._direct = settings.rough, settings.in_valleys, settings.direct
-        self._scheme = _scheme_of_cycle(settings.couette, scheme)
+        self._scheme = scheme
         first = self._first_grid(hierarchy.grids, level)
 
         def jacobian_on(number, scheme):
@@ -85,9 +80,6 @@ class MultigridSolver:
         """Of the cycle's grids, coarsest first."""
         self.jacobian = self.jacobians[-1]
         """What is solved."""
-        if self._scheme is not scheme:
-            self.jacobian = jacobian_on(level, scheme)
-        self._all = list(dict.fromkeys((*self.jacobians, self.jacobian)))
         self._transfers = hierarchy.transfers[first:level]
         self._partitioned = [PartitionedTransfer(transfer) for transfer in self._transfers]
         self._smoothers = [self._smoother(each)(each, settings.omega) for each in self.jacobians[1:]]
@@ -113,14 +105,14 @@ class MultigridSolver:
 
     def _smoother(self, jacobian):
         """The class of the smoother of a grid."""
-        grid = jacobian.grid.mesh.is_line, jacobian.holds_film
-        return smoother_of(*grid, self._in_valleys, jacobian is self.jacobians[-1])
+        of_grid = jacobian.grid.mesh.is_line, self._scheme.couette, jacobian.holds_film
+        return smoother_of(*of_grid, self._in_valleys, jacobian is self.jacobian)
 
     def free(self):
         """Destroy Mats and MPI datatypes; the KSP that uses them must be destroyed before."""
         for smoother in self._smoothers:
             smoother.free()
-        for jacobian in self._all:
+        for jacobian in self.jacobians:
             jacobian.mat.destroy()
             # It refers to the jacobian, whose arrays would wait for the garbage collector.
             jacobian.witness = None
@@ -153,9 +145,11 @@ class MultigridSolver:
         equations. The load answers to H0 by itself with a `resistance`. The evaluation forgets its faces
         and, where memory is short, the fluid.
         """
-        for jacobian in self._all:
+        for jacobian in self.jacobians:
             jacobian.resistance = resistance
-        self._linearise_finest(evaluation, rows, rate)
+        leaks = not self._scheme.contact_law.closes_faces
+        self.jacobian.linearise(evaluation, rows, rate, leaks)
+        evaluation.forget()
         here = _About.finest(evaluation, rows, rate)
         for level in range(len(self.jacobians) - 2, -1, -1):
             finer, here = here, here.on_coarser(self._transfers[level], averages=self._in_valleys)
@@ -163,14 +157,6 @@ class MultigridSolver:
         self._coarse.gather()
         if self._memory_is_short:
             evaluation.forget_fluid()
-
-    def _linearise_finest(self, evaluation, rows, rate):
-        """The operator that is solved, and that of the cycle where its scheme is another."""
-        leaks = not self.jacobian.scheme.contact_law.closes_faces
-        if self.jacobian is not self.jacobians[-1]:
-            self.jacobian.linearise(evaluation, rows, rate, leaks)
-        self.jacobians[-1].linearise(evaluation, rows, rate, leaks)
-        evaluation.forget()
 
     def _linearise_coarse(self, level, contact, here, finer):
         """Grid `level` about `here`, an `_About`; smoother and transfer of the grid above about `finer`."""
@@ -187,7 +173,7 @@ class MultigridSolver:
     def forget(self):
         """Where memory is short, free that of the linearisation and its factors: the next has others."""
         if self._memory_is_short:
-            for part in (*self._all, *self._smoothers):
+            for part in (*self.jacobians, *self._smoothers):
                 part.forget()
 
     def configure(self, ksp, rtol):
@@ -197,7 +183,7 @@ class MultigridSolver:
         might rise again. With films that a grid cannot hold only where needed.
         """
         ksp.setType(PETSc.KSP.Type.FGMRES)
-        ksp.setOperators(self.jacobian.mat, self.jacobians[-1].mat)
+        ksp.setOperators(self.jacobian.mat)
         ksp.setTolerances(rtol=rtol, atol=0.0, max_it=MOST_ITERATIONS)
         ksp.setGMRESRestart(self._restart)
         ksp.getPC().setType(PETSc.PC.Type.PYTHON)
@@ -214,12 +200,6 @@ class MultigridSolver:
     @property
     def _memory_is_short(self):
         return is_large(self.jacobian.grid.mesh)
-
-
-def _scheme_of_cycle(asked, solved):
-    """The `solved` scheme with the Couette flow `asked` for: "same" is its own, or a better one."""
-    couette = IN_THE_CYCLE.get(solved.couette, solved.couette) if asked == "same" else asked
-    return solved if couette == solved.couette else replace(solved, couette=couette)
 
 
 @dataclass(frozen=True)

@@ -91,7 +91,7 @@ def settings_from(config, contact):
         **_keys_of(SolverSettings, solver),
         scheme=scheme,
         newton=NewtonSettings(**_keys_of(NewtonSettings, solver) | {"tolerance": tolerance}),
-        cycle=CycleSettings(**_keys_of(CycleSettings, solver), couette=solver.cycle_couette),
+        cycle=CycleSettings(**_keys_of(CycleSettings, solver)),
         relaxation=RelaxationSettings(**asdict(config.relaxation), tolerance=solver.tolerance),
         time=time if config.is_in_time else None,
     )

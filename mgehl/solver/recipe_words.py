@@ -79,7 +79,7 @@ def _smoother(recipe, is_line):
     cycle = recipe.cycle
     if is_line and cycle.direct:
         return f"none, up to {cycle.direct} nodes of a line are solved directly"
-    return smoother_of(is_line, in_valleys=cycle.in_valleys, finest=True).words
+    return smoother_of(is_line, recipe.scheme.couette, in_valleys=cycle.in_valleys, finest=True).words
 
 
 def _steps(newton):

@@ -20,7 +20,7 @@ class PythonSnes:
         self._snes.setType(PETSc.SNES.Type.PYTHON)
         self._snes.setPythonContext(self)
         self._snes.setFunction(self._form_function, self._f)
-        self._snes.setJacobian(self._form_jacobian, multigrid.jacobian.mat, multigrid.jacobians[-1].mat)
+        self._snes.setJacobian(self._form_jacobian, multigrid.jacobian.mat)
         self._snes.setTolerances(atol=settings.tolerance, rtol=0.0, max_it=settings.max_steps)
         multigrid.configure(self._snes.getKSP(), settings.linear_tolerance)
         self._snes.setFromOptions()

@@ -32,7 +32,7 @@ def make_smoother(in_the_end):
     """Factory of factored smoothers of a linearised `Jacobian` with these rows; freed after the test."""
 
     def make(jacobian, rows, kind=None):
-        kind = kind or smoother_of(jacobian.grid.mesh.is_line, jacobian.holds_film)
+        kind = kind or smoother_of(jacobian.grid.mesh.is_line, "1B", jacobian.holds_film)
         smoother = in_the_end(kind.free, kind(jacobian, OMEGA))
         smoother.partition(rows)
         smoother.factor()
