@@ -32,7 +32,7 @@ NAMES = {
 }
 """What columns of coordinates and heights are called."""
 
-SIZES = "x", "y", "pixel"
+SIZES = "x", "y", "pixel", "dx", "dy"
 """What headings tell of a matrix."""
 
 NO_LENGTHS = {"V", "mV", "deg", "rad", "Hz", "nA", "pA", "N", "nN"}
@@ -41,15 +41,20 @@ NO_LENGTHS = {"V", "mV", "deg", "rad", "Hz", "nA", "pA", "N", "nN"}
 _BEGIN = r"(?:^|[^\w ]) *(?:(?:scan|image|map) +)?"
 """What stands before a size: a "max height" is none."""
 
+_STEP = rf"\b(?:dx|x[ _-](?:step|spacing|increment|pitch))\s*[:=]\s*({NUMBER})\s*([^\s;,]*)"
+
 _TOLD = {
     "x": re.compile(rf"{_BEGIN}(?:width|breite|x-length)\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
     "y": re.compile(rf"{_BEGIN}(?:height|höhe|y-length)\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
-    "pixel": re.compile(rf"\bpixel\s+size\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
+    "pixel": re.compile(rf"\bpixel\s+(?:size|pitch)\s*[:=]\s*({NUMBER})\s*([^\s;]*)", re.I),
+    **{f"d{axis}": re.compile(_STEP.replace("x", axis), re.I) for axis in "xy"},
     "cell": re.compile(rf"\bcellsize\s+({NUMBER})()", re.I),
+    "columns": re.compile(rf"\bncols\s+({NUMBER})()", re.I),
+    "rows": re.compile(rf"\bnrows\s+({NUMBER})()", re.I),
     "hole": re.compile(rf"\bnodata_value\s+({NUMBER})()", re.I),
     "factor": re.compile(rf"\bheight conversion factor \(->\s*m\)\s*=\s*({NUMBER})()", re.I),
-    "unit": re.compile(r"()\b(?:value units?|z-unit)\s*[:=]\s*([^\s;]+)", re.I),
-    "length unit": re.compile(r"()\bx-unit\s*[:=]\s*([^\s;]+)", re.I),
+    "unit": re.compile(r"()(?:\b(?:value|height|z)[ _-]|^\W*)units?\s*[:=]\s*([^\s;,]+)", re.I),
+    "length unit": re.compile(r"()\b(?:x|xy|lateral)[ _-]units?\s*[:=]\s*([^\s;,]+)", re.I),
 }
 """What headings tell: a number, a unit or both."""
 
@@ -64,7 +69,7 @@ def read_text(path):
     if "hole" in told:
         table.values[table.values == told["hole"][0]] = np.nan
     if "cell" in told:  # a grid of maps, whose first row is the northern one
-        return Map(path, table.values[::-1], *(told["cell"][0],) * 2)
+        return _checked_shape(Map(path, table.values[::-1], *(told["cell"][0],) * 2), told)
     if axes:  # which say more than a size does
         return _with_heading(_from_points(path, table), {k: v for k, v in told.items() if k not in SIZES})
     is_matrix = columns != 3 or not told.keys().isdisjoint(SIZES)
@@ -75,8 +80,12 @@ def read_text(path):
 def _with_heading(found, told):
     """A `Map` with the sizes and units of its heading."""
     rows, columns = found.heights.shape
-    for axis, points in (("x", columns), ("y", rows)) if "pixel" in told else ():
-        pixels = told["pixel"][0] * points, told["pixel"][1]
+    if found.is_profile and "dx" in told:
+        told["dy"] = told["dx"]
+    for axis, points in (("x", columns), ("y", rows)):
+        if not (step := told.get(f"d{axis}") or told.get("pixel")):
+            continue
+        pixels = step[0] * points, step[1]
         _check_size(found, axis, points, told.get(axis, pixels), pixels)
         told[axis] = pixels
     known = {}
@@ -89,6 +98,14 @@ def _with_heading(found, told):
         raise found.error(f"its heading tells values in {word}, which are no heights")
     unit = told["factor"][0] if "factor" in told else UNITS.get(word)
     return found.told(height_unit=unit, **known)
+
+
+def _checked_shape(found, told):
+    """The `Map`, where it has as many rows and columns as its heading tells."""
+    for name, number in zip(("rows", "columns"), found.heights.shape, strict=True):
+        if name in told and told[name][0] != number:
+            raise found.error(f"its heading tells {told[name][0]:g} {name}, but it has {number}")
+    return found
 
 
 def _check_size(found, axis, points, told, pixels):

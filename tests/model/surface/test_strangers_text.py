@@ -70,6 +70,8 @@ HEADINGS = {
     "another height": (
         "# Max height: 3.2 µm\n# Scan width = 12 um; Height = 20 um; Height: 1 um\n", 3.0, 5.0, 1e-6, None),
     "pixels in a line": ("# Pixel size: 2 nm\n# Width: 4 px\n# Height: 8.1 nm\n", 2.0, 2.0, 1e-9, None),
+    "steps": ("# dx = 1.5 um, dy = 3 um\n# Z unit: nm\n", 1.5, 3.0, 1e-6, 1e-9),
+    "steps in words": ("unit=nm\nx-spacing: 2 um\ny-spacing: 2000 nm\n", 2.0, 2.0, 1e-6, 1e-9),
     "no unit": ("# Width: 12\n# Height: 8\n", 3.0, 2.0, None, None),
 }  # fmt: skip
 
@@ -154,6 +156,8 @@ REFUSED = {
     "pixels of another size": (
         f"# Pixel size: 1 um\n# Width: 4 um\n# Height: 9 um\n{matrix(';')}",
         "its heading tells a size along y of 9e-06 m, but its pixels make 4e-06 m"),
+    "a column too many": (
+        f"ncols 3\nnrows 4\ncellsize 2\nNODATA_value -9\n{matrix(' ')}", "tells 3 columns, but it has 4"),
     "no heights": ("# Value units: V\n1 2 3 4\n4 5 6 7\n1 2 3 4\n", "in V, which are no heights"),
     "a line that is missing": (
         "\n".join(f"{a} {b} 1" for b in (0, 1, 2, 3, 5) for a in range(5)),
