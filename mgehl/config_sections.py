@@ -98,7 +98,7 @@ class SolverSection:
     max_steps: int = whole(400, "Newton steps on one grid at the most", 0, 10000)
     idle_steps: int | None = whole(None, "steps in vain after which a solve is given up (unset: 15; in "
         "time 30; with peaks near the other body none)", 1, 10000)
-    max_work: int = whole(4000, "convolutions after which a run ends without an answer; in time after "
+    max_work: int = whole(3000, "convolutions after which a run ends without an answer; in time after "
         "which it has no beginning", 10, 10**7)
     linear_tolerance: float = number(0.1, "relative tolerance of GMRES in a Newton step", above=0.0,
         high=0.5)

@@ -132,7 +132,8 @@ def doubts(config, contact):
 
 
 def _differences(directory, start, config):
-    """What differs in another contact from which a run starts: a first guess, and maybe a bad one."""
+    """What differs in another contact from which a run starts: a first guess, and maybe a bad one; in time
+    the film that it begins with."""
     from mgehl.output.laws import content_of, law_files
     from mgehl.solver.restart import differing_keys
 
@@ -141,10 +142,11 @@ def _differences(directory, start, config):
     for file in law_files(config):
         if theirs.get(Path(file).name, content_of(file)) != content_of(file):
             keys.append(Path(file).name)
+    what_for = "this run begins with its film" if config.is_in_time else "a first guess only"
     if keys:
-        yield f"--start-from {directory}: is of another contact ({', '.join(keys)}): a first guess only"
+        yield f"--start-from {directory}: is of another contact ({', '.join(keys)}): {what_for}"
     if not start.result.settled:
-        yield f"--start-from {directory}: has not converged: a first guess only"
+        yield f"--start-from {directory}: has not converged: {what_for}"
 
 
 def _start(directory, comm):

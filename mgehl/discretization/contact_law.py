@@ -77,6 +77,9 @@ class BoundaryFilm(ContactLaw):
     has_contact = True
     closes_faces = False
 
+    leaks: bool = True
+    """Whether there are layers that fluid flows through; else h_b is the film at which bodies touch."""
+
     def flow_gap(self, H):
         return np.maximum(H, self.thinnest), H > self.thinnest
 

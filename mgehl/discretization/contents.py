@@ -27,6 +27,17 @@ def feeding(cavity, receives, along_y):
     return feeds
 
 
+def passed_on(gives, takes, axis):
+    """The nodes that give, and behind them, along an axis of the arrays, those that take without a gap:
+    masks of the nodes, the first a part of the second."""
+    number = np.arange(gives.shape[axis]).reshape((-1, 1) if axis == 0 else (1, -1))
+
+    def last(mask):
+        return np.maximum.accumulate(np.where(mask, number, -1), axis=axis)
+
+    return takes & (last(gives) > last(~takes))
+
+
 @compiled()
 def missing_fillings(marched, inflow, leaving_x, leaving_y, stored):
     """By how much, `OVERFULL` at most, the fillings of `marched` nodes, a mask, must rise so that their

@@ -159,7 +159,7 @@ def thinning_words(result):
     if mixed:
         films = {"mean gap": (mixed.mean_gap_nm, friction.unthinned_film_nm)}
     for name, (own, thick) in films.items():
-        if thick is not None and abs(thick - own) > HARDLY * own:
+        if thick is not None and thick - own > HARDLY * own:
             yield f"shear thins the oil: without that the {name} would be {thick:.4g} nm"
             return
     yield "shear thins the oil, the film hardly"

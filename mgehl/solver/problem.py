@@ -7,7 +7,7 @@ from math import nan
 import numpy as np
 
 from mgehl.discretization.axes import axes_of
-from mgehl.discretization.contents import OVERFULL, feeding, missing_fillings
+from mgehl.discretization.contents import OVERFULL, feeding, missing_fillings, passed_on
 from mgehl.discretization.evaluation import Evaluation
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.residual import linearise, residual, shifted
@@ -111,6 +111,15 @@ class Problem:
         if not self.scheme.contact_law.has_contact or self.scheme.motion == AT_REST:
             return np.zeros(status.shape, dtype=bool)
         return self._in_order(feeding, status == CAVITATED, self._receives(status), self._along_y)
+
+    def passed_on(self, opened, state):
+        """Contact that opens, a mask (lines, nx), and what opens with it. Bare contact lets nothing out:
+        what is carried in goes on through all contact behind, along the axis that surfaces move most along.
+        """
+        fastest = max(self.axes, key=lambda axis: axis.couette / axis.cell)
+        if self.scheme.contact_law.leaks or not fastest.couette:
+            return opened
+        return self._in_order(passed_on, opened, state.status == CONTACT, fastest.number)
 
     def _receives(self, status):
         """Nodes into which the contents of cavities are carried, (lines, nx)."""

@@ -214,7 +214,7 @@ def interface_law(contact, layers, threshold, mean, in_time):
     shuts = mean == ARITHMETIC and layers == 0.0 and not contact.is_rough and not in_time
     if shuts or not contact.is_loaded:
         return InterfaceConditions(threshold / contact.film_scale)
-    return BoundaryFilm(max(layers, threshold) / contact.film_scale)
+    return BoundaryFilm(max(layers, threshold) / contact.film_scale, leaks=layers > threshold)
 
 
 def share_of_the_flow(contact, scheme):

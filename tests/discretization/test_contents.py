@@ -1,6 +1,6 @@
 import numpy as np
 
-from mgehl.discretization.contents import feeding, missing_fillings
+from mgehl.discretization.contents import feeding, missing_fillings, passed_on
 
 
 def masks(*lines):
@@ -25,6 +25,14 @@ def test_cavities_feed_through_cavities_of_the_next_line():
     fields = masks("bcbbb", "bccfb")
     assert feeding(*fields, False).tolist() == [[0] * 5, [0, 1, 1, 0, 0]]
     assert feeding(*fields, True).tolist() == [[0, 1, 0, 0, 0], [0, 1, 1, 0, 0]]
+
+
+def test_what_is_given_is_passed_on_as_far_as_it_is_taken():
+    gives, takes = np.zeros((1, 7), dtype=bool), np.array([[0, 1, 1, 1, 0, 1, 1]], dtype=bool)
+    gives[0, 2] = True
+    for turned in (np.asarray, np.transpose):
+        passed = passed_on(turned(gives), turned(takes), int(turned is np.asarray))
+        assert turned(passed).tolist() == [[0, 0, 1, 1, 0, 0, 0]]
 
 
 def test_wherever_a_rise_is_marched_no_inflow_is_left():

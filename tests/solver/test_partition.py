@@ -159,6 +159,13 @@ class TestContinuousContact:
             CONTACT, LUBRICATED if opens else CONTACT, CONTACT, CONTACT,
         ]  # fmt: skip
 
+    def test_bare_contact_opens_with_all_behind_it(self, make_partition, pressed):
+        """A film went on by a node a step."""
+        pressed.p[NODE] += 0.1
+        bare = make_partition(law=BoundaryFilm(self.FILM, leaks=False))
+        changed_by(bare.open_contact, pressed, released=3)
+        assert pressed.status[4, 3:7].tolist() == [CONTACT, LUBRICATED, LUBRICATED, LUBRICATED]
+
     def test_what_fluid_presses_under_is_lifted_and_not_torn_apart(self, partition, pressed):
         """It opened empty, was closed by the films beside it, and so on: a polymer was not found."""
         pressed.P[NODE], pressed.p[NODE] = -0.1, 0.1
