@@ -83,6 +83,8 @@ class OwnFunction:
         try:
             if np.iscomplexobj(result):
                 raise self.error("must return real numbers, returns complex ones")
+            if np.asarray(result).dtype.kind in "SU":
+                raise self.error(f"must return numbers, returns the text {result!r}")
             return np.broadcast_to(np.asarray(result, dtype=float), shape)
         except (TypeError, ValueError):
             parts = isinstance(result, tuple | list)  # of several lengths: they have no shape

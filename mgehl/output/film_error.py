@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 from mgehl.discretization.couette import SCHEMES
-from mgehl.output.resolution import SEEN_CELLS
+from mgehl.model.contact import RESOLVED_CELLS
 from mgehl.output.surface import GRIDS
 from mgehl.solver.films import GridFilm
 from mgehl.solver.richardson import band, band_beside, band_of_smallest
@@ -105,7 +105,7 @@ def from_grids(result, grids, order, other=None):
     coarser = grids[1]
     if not coarser.settled or (coarser.contact_nodes and coarser.central_nm <= 0.0):
         return no_band(f"on {coarser.nodes} nodes, the next coarser grid, there is no film to compare with")
-    known, unlike = [each for each in grids if each.settled], "" if other else _unlike(result, *grids[:2])
+    known, unlike = [each for each in grids if each.settled], "" if other else _unlike(result, coarser)
     central, minimum = (_band(result, known, film, order, bool(unlike), other) for film in FILMS)
     halves = central.half_width, minimum.half_width
     if result.minimum_film_nm >= result.central_film_nm:
@@ -116,12 +116,13 @@ def from_grids(result, grids, order, other=None):
     return FilmError(*halves, how, order, central.observed_order, minimum.observed_order)
 
 
-def _unlike(result, finest, coarser):
-    """Why the next coarser grid has another film, which makes the band wider, in words; else empty."""
+def _unlike(result, coarser):
+    """Why the next coarser grid has another film, or none that shows its order, which makes the band wider,
+    in words; else empty."""
     if coarser.contact_nodes:
         return f"; wider, for on {coarser.nodes} nodes the film touches at {coarser.contact_nodes}"
-    if result.resolution.inlet_cells * (coarser.nodes - 1) / (finest.nodes - 1) < SEEN_CELLS:
-        return f"; wider, for on {coarser.nodes} nodes the inlet has less than a cell"
+    if result.resolution.inlet_cells < RESOLVED_CELLS:
+        return f"; wider, for the inlet has less than {RESOLVED_CELLS:g} cells"
     return ""
 
 

@@ -11,8 +11,8 @@ IRREGULAR = 0.7
 """The same where three grids show another order, or none."""
 
 UNLIKE = 2.0
-"""The same where the coarser grid has another film, with contact or an inlet of less than a cell: three
-times the error, as Roache has it where nothing is known."""
+"""The same where the coarser grid has another film, with contact, or the inlet is not resolved: three times
+the error, as Roache has it where nothing is known."""
 
 UNSEEN, UNSEEN_UNLIKE = 1.2, 2.5
 """Safety where there are only two grids, which show no order: times the error's root mean square around the
@@ -57,7 +57,8 @@ def band(film, values, around, order, unlike=False):
 
     The last difference and the order, the scheme's or a somewhat lower observed one, tell the error
     (Richardson). Where the last difference is smaller than the one before foretells, it is so by chance,
-    and what it lacks is added. Of two grids the safety comes from the last difference `around` the centre,
+    and what it lacks is added; of grids that show neither the film nor its order the error may be as large
+    as either. Of two grids the safety comes from the last difference `around` the centre,
     a root mean square. Part of the node's distance is added. `unlike`: another film on the second.
     """
     last, *before = (finer - coarser for finer, coarser in zip(values, values[1:], strict=False))
@@ -67,6 +68,8 @@ def band(film, values, around, order, unlike=False):
     if before:
         safety = UNLIKE if unlike else safety_of(order, observed)
         half_width = error + safety * abs(part * last) + by_chance(order, last, *before)
+        if unlike and observed is not None and observed < SLOWEST * order:
+            half_width = max(half_width, abs(*before))
     else:
         half_width = hypot(error, (UNSEEN_UNLIKE if unlike else UNSEEN) * part * around)
     return Band(max(half_width + OFF * abs(off), SMALLEST * abs(film)), observed)

@@ -57,7 +57,7 @@ def refusal(function, *arguments):
         ("def law(p): return p, (p, 1.0)",
          "must return numbers of shape (2, 3), returns tuple of 2 parts"),
         ("def law(p): return p, 1j * p", "must return real numbers, returns complex ones"),
-        ("def law(p): return p, 'x'", "must return numbers of shape (2, 3), returns str of shape ()"),
+        ("def law(p): return p, '0.5'", "must return numbers, returns the text '0.5'"),
     ],
 )  # fmt: skip
 def test_what_goes_wrong_is_one_line(own, text, words):
