@@ -47,7 +47,7 @@ class Newton(PythonSnes):
         self._problem = problem
         self._monitor = monitor or (lambda cycle: None)
         self._load_scale = multigrid.jacobian.load_scale
-        self._partition = Partition(problem)
+        self._partition = Partition(problem, settings.passes_on)
         self._elimination = Elimination(problem, settings)
         self._in_turn = False
 

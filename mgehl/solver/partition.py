@@ -1,8 +1,9 @@
 """Which nodes are film, cavity and contact: re-partitioned between Newton steps.
 
 cavitated: enters when P < 0, leaves when it would hold more than its gap does. contact: enters when H <=
-H_th, leaves when P < 0; one that leaves its faces open leaves when p > P, too. Where it is bare all contact
-behind leaves with it: node by node a film took half of all steps to pass a contact.
+H_th, leaves when P < 0; one that leaves its faces open leaves when p > P, too. Bare contact lets nothing
+out, and what is carried in goes on: all contact behind leaves with it, each node once. Where that was wrong
+it closes again. Node by node a film took half of all steps to pass a contact.
 
 All whose sign is wrong change at once; where that goes in a circle, neighbours in turn: a node that is torn
 or fills takes away what asked the next one to [block principal pivoting, Judice and Pires 1994]. Those that
@@ -81,6 +82,8 @@ class Past(Kept):
     just_torn: np.ndarray
     just_released: np.ndarray
     was_released: np.ndarray
+    passed: np.ndarray
+    """Nodes that opened with contact before them."""
     turns: np.ndarray
     """How often the node went from film to contact and back."""
     closing_gap: np.ndarray
@@ -93,6 +96,7 @@ class Past(Kept):
             just_torn=np.zeros(shape, dtype=bool),
             just_released=np.zeros(shape, dtype=bool),
             was_released=np.zeros(shape, dtype=bool),
+            passed=np.zeros(shape, dtype=bool),
             turns=np.zeros(shape, dtype=np.int8),
             closing_gap=np.zeros(shape),
             torn_pressure=np.zeros(shape),
@@ -101,10 +105,11 @@ class Past(Kept):
 
 class Partition:
     """Moves nodes of a state between the sets; `past`, which may be replaced, is what they went through.
-    With `in_turn` neighbours whose signs are wrong change in turn, and not at once."""
+    With `in_turn` neighbours whose signs are wrong change in turn, and not at once. Contact that opens
+    `passes_on` what the surfaces carry in, or does not."""
 
-    def __init__(self, problem):
-        self._problem, self._grid = problem, problem.grid
+    def __init__(self, problem, passes_on=False):
+        self._problem, self._grid, self._passes_on = problem, problem.grid, passes_on
         self._contact_law, self._tears_at = problem.scheme.contact_law, problem.contact.tears_at
         self.forget()
 
@@ -191,13 +196,16 @@ class Partition:
         return count
 
     def open_contact(self, state, changes, in_turn=False):
-        """Contact that leaves its faces open becomes film where the fluid would press harder than it, and
-        with it the contact behind: where pressure cannot drive the fluid out, the surfaces carry it on."""
+        """Contact that leaves its faces open becomes film where the fluid would press harder than it."""
         if self._contact_law.closes_faces:
             return
         excess = state.p - state.P - np.maximum(-self._lifted(state), 0.0)
         opened = self._that_change((state.status == CONTACT) & (excess > 0.0), excess, in_turn)
-        opened = self._problem.passed_on(opened, state)
+        if self._passes_on:
+            takes = (state.status == CONTACT) & ~self.past.passed
+            behind = self._problem.passed_on(opened & takes, takes) & ~opened
+            self.past.passed |= behind
+            opened |= behind
         state.status[opened] = LUBRICATED
         self.past.just_released |= opened
         changes.released += self._grid.count(opened)

@@ -112,15 +112,11 @@ class Problem:
             return np.zeros(status.shape, dtype=bool)
         return self._in_order(feeding, status == CAVITATED, self._receives(status), self._along_y)
 
-    def passed_on(self, opened, state):
-        """Contact that opens, a mask (lines, nx), and what opens with it. Bare contact lets nothing out:
-        what is carried in goes on through all contact behind, along the axis that surfaces move most along.
-        Of 80 rollers, whose contacts are a line of few nodes, none gains by that and one is lost.
-        """
+    def passed_on(self, gives, takes):
+        """The nodes that give, and those that take behind them, along the axis that the surfaces move most
+        along: masks (lines, nx), the first a part of the second."""
         fastest = max(self.axes, key=lambda axis: axis.couette / axis.cell)
-        if self.scheme.contact_law.leaks or self.grid.mesh.is_line or not fastest.couette:
-            return opened
-        return self._in_order(passed_on, opened, state.status == CONTACT, fastest.number)
+        return self._in_order(passed_on, gives, takes, fastest.number)
 
     def _receives(self, status):
         """Nodes into which the contents of cavities are carried, (lines, nx)."""

@@ -138,7 +138,13 @@ def recipe_in_time(settings, contact):
     limits = {"max_work": 10**9, "max_steps": STEPS_IN_TIME, "idle_steps": STEPS_IN_TIME}
     limits |= {"by_reduced_pressure": recipe.scheme.face_mobility in MONOTONE}
     newton = replace(
-        recipe.newton, squeeze=0.0, eliminates=False, in_time=True, certain=PASSING_TOLERANCE, **limits
+        recipe.newton,
+        squeeze=0.0,
+        eliminates=False,
+        passes_on=False,
+        in_time=True,
+        certain=PASSING_TOLERANCE,
+        **limits,
     )
     cycle = replace(recipe.cycle, direct=max(recipe.cycle.direct, DIRECT_IN_TIME))
     return replace(recipe, scheme=replace(recipe.scheme, motion=(0.0, 0.0)), newton=newton, cycle=cycle)
@@ -188,6 +194,8 @@ def _newton(settings, contact, peaks, squeezed):
         certain=max(asked.certain, CERTAIN if by_film else 0.0),
         # A line's systems are solved directly: a step of all takes no longer than windows would.
         eliminates=peaks == TOUCHING and not contact.is_line,
+        # Of 80 rollers none gains by that and one is lost.
+        passes_on=peaks == TOUCHING and not contact.is_line and not scheme.contact_law.leaks,
         by_reduced_pressure=peaks != TOUCHING and scheme.face_mobility in MONOTONE,
     )
 

@@ -50,6 +50,8 @@ class NewtonSettings:
     step, else after one that gained nothing. Of peaks that touch that finds as many as it loses."""
     eliminates: bool = False
     """Whether few nodes that make up most of the residual are solved by themselves between two steps."""
+    passes_on: bool = False
+    """Whether contact opens with all contact behind it (`Partition`)."""
     in_time: bool = False
     """Whether the state is one of many, near the one before: it is solved no further than is asked."""
 
