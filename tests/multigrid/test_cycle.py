@@ -1,15 +1,11 @@
 import gc
 import weakref
 
-import numpy as np
 import pytest
 
 import mgehl
 from mgehl.discretization.scheme import Scheme
-from mgehl.multigrid.coarse import dense_influence
 from mgehl.multigrid.cycle import CycleSettings, MultigridSolver
-from mgehl.multigrid.stencil_matrix import stencil_rows
-from mgehl.solver.problem import ContactProblem
 
 SOFT_LINE = {
     "contact.kind": "line", "contact.load_per_length": 18e3, "contact.radius_x": 41.6e-3,
@@ -25,31 +21,6 @@ def test_a_soft_line_takes_two_iterations_a_step_on_every_grid(nodes):
     solution = mgehl.solve(mgehl.load(None, SOFT_LINE | {"grid.nodes": nodes}))
     assert solution.result.converged
     assert max(row["linear_iterations"] for row in solution.rows if row["grid"] == nodes) <= 3
-
-
-def dense_jacobian(jacobian):
-    """The bordered matrix, from the dense influence of all nodes on all nodes."""
-    mesh, linear = jacobian.grid.mesh, jacobian.linearisation
-    A, B = (stencil_rows(linear.offsets, each, 0, mesh.nodes).toarray() for each in (linear.A, linear.B))
-    J = A + B @ dense_influence(mesh, jacobian.contact.kernel)
-    load = np.full((1, mesh.nodes), jacobian.load_weight)
-    return np.block([[J, B.sum(axis=1, keepdims=True)], [load, np.zeros((1, 1))]])
-
-
-def test_the_operator_is_the_dense_jacobian(
-    make_hierarchy, paper_contact, rough_state, make_multigrid, make_vec
-):
-    contact = paper_contact()
-    hierarchy = make_hierarchy(contact, 33, coarsest=17)
-    problem = ContactProblem(hierarchy.grids[-1], hierarchy.deflections[-1], contact, Scheme("2B"))
-    multigrid = make_multigrid(hierarchy, problem, rough_state(problem, contact=True))
-    space = multigrid.space
-    P = np.random.default_rng(9).standard_normal(space.grid.shape)
-    P[space.grid.boundary()] = 0.0  # as the convolution has it
-    x, y = make_vec(space, P, 0.7), make_vec(space)
-    multigrid.jacobian.mat.mult(x, y)
-    expected = dense_jacobian(multigrid.jacobian) @ np.append(P, 0.7)
-    np.testing.assert_allclose(y.getArray(), expected, rtol=0.0, atol=1e-12 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("couette", ["2C", "S2C"])

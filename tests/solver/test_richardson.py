@@ -16,6 +16,11 @@ def test_a_difference_that_is_small_by_chance_does_not_make_a_small_band():
     assert 0.1 * by_their_order.half_width < by_chance.half_width
 
 
+def test_where_nothing_shows_the_order_a_band_holds_the_larger_difference():
+    films = [10.0, 10.1, 10.25]
+    assert band(10.0, films, 0.0, 2, unlike=True).half_width >= 0.15 > band(10.0, films, 0.0, 2).half_width
+
+
 def test_no_order_is_seen_where_differences_change_their_sign():
     assert observed_order(1.0, -2.0) is None
     assert observed_order(1.0) is None
