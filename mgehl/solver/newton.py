@@ -47,7 +47,7 @@ class Newton(PythonSnes):
         self._problem = problem
         self._monitor = monitor or (lambda cycle: None)
         self._load_scale = multigrid.jacobian.load_scale
-        self._partition = Partition(problem, settings.passes_on)
+        self._partition = Partition(problem)
         self._elimination = Elimination(problem, settings)
         self._in_turn = False
 
@@ -185,16 +185,18 @@ class Newton(PythonSnes):
         state.filling -= length * (c - asked)
         self._partition.cut_tension(state, changes, self._in_turn)
         state.H = problem.gap(state.P, state.H0) if H is None else H
+        helps = self._helps
+        self._partition.passes_on = self._settings.passes_on and helps
         self._partition.follow_gap(state, changes, self._in_turn)
         position.step = replace(position.step, length=length)
-        if self._eliminates:
+        if self._settings.eliminates and helps:
             self._elimination.of(state, changes, self._in_turn)
 
     @property
-    def _eliminates(self):
-        """Whether few nodes are solved by themselves after this step. They and the steps of all may go
-        round: of sixteen steps in vain the last eight go without."""
-        return self._settings.eliminates and way_in_vain(self._position) // IDLE_CIRCLE % 2 == 0
+    def _helps(self):
+        """Whether this step's sets are passed on, and few nodes solved by themselves. That and the steps of
+        all may go round: of sixteen steps in vain the last eight go without."""
+        return way_in_vain(self._position) // IDLE_CIRCLE % 2 == 0
 
     @property
     def _falls_as_oil_flows(self):

@@ -105,11 +105,13 @@ class Past(Kept):
 
 class Partition:
     """Moves nodes of a state between the sets; `past`, which may be replaced, is what they went through.
-    With `in_turn` neighbours whose signs are wrong change in turn, and not at once. Contact that opens
-    `passes_on` what the surfaces carry in, or does not."""
+    With `in_turn` neighbours whose signs are wrong change in turn, and not at once. Contact opens with all
+    contact behind it where it `passes_on` what is carried in."""
 
-    def __init__(self, problem, passes_on=False):
-        self._problem, self._grid, self._passes_on = problem, problem.grid, passes_on
+    passes_on = False
+
+    def __init__(self, problem):
+        self._problem, self._grid = problem, problem.grid
         self._contact_law, self._tears_at = problem.scheme.contact_law, problem.contact.tears_at
         self.forget()
 
@@ -201,7 +203,7 @@ class Partition:
             return
         excess = state.p - state.P - np.maximum(-self._lifted(state), 0.0)
         opened = self._that_change((state.status == CONTACT) & (excess > 0.0), excess, in_turn)
-        if self._passes_on:
+        if self.passes_on:
             takes = (state.status == CONTACT) & ~self.past.passed
             behind = self._problem.passed_on(opened & takes, takes) & ~opened
             self.past.passed |= behind

@@ -159,9 +159,10 @@ class TestContinuousContact:
             CONTACT, LUBRICATED if opens else CONTACT, CONTACT, CONTACT,
         ]  # fmt: skip
 
-    def test_contact_opens_with_all_behind_it_once(self, make_problem, pressed):
+    def test_contact_opens_with_all_behind_it_once(self, make_partition, pressed):
         """A film went on by a node a step."""
-        bare = Partition(make_problem(nodes=9, scheme=Scheme(contact_law=BoundaryFilm(self.FILM))), True)
+        bare = make_partition(law=BoundaryFilm(self.FILM))
+        bare.passes_on = True
         for released in (3, 1):
             pressed.status[4, 3:7], pressed.p[NODE] = CONTACT, pressed.P[NODE] + 0.1
             changed_by(bare.open_contact, pressed, released=released)
