@@ -194,7 +194,7 @@ def _newton(settings, contact, peaks, squeezed):
         certain=max(asked.certain, CERTAIN if by_film else 0.0),
         # A line's systems are solved directly: a step of all takes no longer than windows would.
         eliminates=peaks == TOUCHING and not contact.is_line,
-        # Of 80 rollers none gains by that and one is lost.
+        # Of 44 rollers one gained by that and one was lost.
         passes_on=peaks == TOUCHING and not contact.is_line and not scheme.contact_law.leaks,
         by_reduced_pressure=peaks != TOUCHING and scheme.face_mobility in MONOTONE,
     )
