@@ -12,9 +12,9 @@ from mgehl.studies.columns import statistic, told
 from mgehl.studies.study import merged, verdict
 
 SEED = 4099
-"""No constant was chosen on the machines and rollers that it draws, but on rollers that contact of lines does
-not pass on what it lets in (`recipe`); on its balls `recipe.CERTAIN` and those
-of `elimination` were. Who chooses one takes another seed: so went 2030."""
+"""No constant was chosen on the machines that it draws; on its rollers that contact of a line opens node by
+node (`recipe`); on its balls `recipe.CERTAIN` and those of `elimination`. Who chooses one takes another seed:
+so went 2030."""
 
 BALL = {
     "surface": {"kind": "self-affine", "longest_wavelength": 200e-6},
