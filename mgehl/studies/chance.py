@@ -13,8 +13,8 @@ from mgehl.studies.study import merged, verdict
 
 SEED = 4099
 """No constant was chosen on the machines that it draws; on its rollers that contact of a line opens node by
-node (`recipe`); on its balls `recipe.CERTAIN` and those of `elimination`. Who chooses one takes another seed:
-so went 2030."""
+node (`recipe`); on its balls `recipe.CERTAIN` and those of `elimination`. Who chooses one takes another
+seed: so went 2030."""
 
 BALL = {
     "surface": {"kind": "self-affine", "longest_wavelength": 200e-6},
