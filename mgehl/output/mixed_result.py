@@ -6,6 +6,7 @@ import numpy as np
 from scipy import ndimage
 
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED, is_fluid
+from mgehl.output.fields import Fields
 from mgehl.output.gap_error import GapError
 from mgehl.solver.gaps import gaps_of, within_hertz
 
@@ -68,18 +69,6 @@ class MixedResult:
         return "µm² in each metre" if self.per_metre else "µm²"
 
 
-@dataclass(frozen=True)
-class Nodes:
-    """Pressure, gap, status and heights in m (about their mean) of all nodes, each (ny, nx)."""
-
-    P: np.ndarray
-    H: np.ndarray
-    status: np.ndarray
-    heights: np.ndarray
-    p: np.ndarray
-    filling: np.ndarray
-
-
 def mixed_result(problem, state):
     """The `MixedResult` of a state; None of smooth bodies (collective). Rank 0 has all nodes and tells the
     others: whatever the number of ranks the sums are the same."""
@@ -87,23 +76,23 @@ def mixed_result(problem, state):
     if contact.surface is None:
         return None
     heights = problem.heights - problem.hertz.contact.mean_height
-    parts = state.P, state.H, state.status, heights, state.p, state.filling
+    parts = state.P, state.H, state.status, state.p, state.filling, heights
     kept, load = problem.scheme.contact_law.contact_gap, problem.load_share
-    return grid.on_first(lambda *whole: measured(contact, grid.mesh, Nodes(*whole), kept, load), *parts)
+    return grid.on_first(lambda *whole: measured(contact, grid.mesh, Fields(*whole), kept, load), *parts)
 
 
-def measured(contact, mesh, nodes, kept=0.0, load_share=1.0):
-    """The `MixedResult` of all `Nodes` of a `mesh` under `load_share` times the contact's load; contact
-    keeps a gap of `kept`, in units of H."""
-    hertz, solid = contact.hertz_under(load_share), nodes.status == CONTACT
+def measured(contact, mesh, fields, kept=0.0, load_share=1.0):
+    """The `MixedResult` of the `Fields` of a whole `mesh`, heights about their mean, under `load_share`
+    times the contact's load; contact keeps a gap of `kept`, in units of H."""
+    hertz, solid = contact.hertz_under(load_share), fields.status == CONTACT
     inside, Sq = within_hertz(mesh, hertz.reach), hertz.contact.roughness
-    film = inside & (nodes.status == LUBRICATED)
+    film = inside & (fields.status == LUBRICATED)
     cell, square_metres = mesh.dX * mesh.dY, contact.cell_area(mesh)
     unit_nm = 1e9 * contact.film_scale
-    nm, sizes = unit_nm * nodes.H, patch_sizes(solid)
-    mean_gap, loaded_gap = gaps_of(mesh, nodes.P, nodes.H, hertz.reach)
-    near = (nodes.status == LUBRICATED) & (nodes.H <= NEAR * kept)
-    torn, sealed = inside & (nodes.status == CAVITATED), _sealed(solid)
+    nm, sizes = unit_nm * fields.H, patch_sizes(solid)
+    mean_gap, loaded_gap = gaps_of(mesh, fields.P, fields.H, hertz.reach)
+    near = (fields.status == LUBRICATED) & (fields.H <= NEAR * kept)
+    torn, sealed = inside & (fields.status == CAVITATED), _sealed(solid)
 
     def share(pressure):
         return float(cell * pressure.sum() / hertz.integral)
@@ -111,23 +100,23 @@ def measured(contact, mesh, nodes, kept=0.0, load_share=1.0):
     return MixedResult(
         lambda_ratio=hertz.contact.lambda_ratio,
         Sq_nm=1e9 * Sq,
-        contact_load_share=share(nodes.P[solid]),
-        film_load_share=share(nodes.P[is_fluid(nodes.status)]),
+        contact_load_share=share(fields.P[solid]),
+        film_load_share=share(fields.P[is_fluid(fields.status)]),
         contact_area_m2=float(solid.sum() * square_metres),
         contact_area_over_hertz=float(solid.sum() * cell / hertz.area),
         patches=len(sizes),
         largest_patch_m2=float(max(sizes, default=0) * square_metres),
         mean_film_nm=_of_some(np.mean, nm[film]),
         minimum_film_nm=_of_some(np.min, nm[film]),
-        valley_film_nm=_of_some(np.mean, nm[film & (nodes.heights < -Sq) & (Sq > 0.0)]),
-        torn_share=float(np.mean(nodes.status[inside] == CAVITATED)),
+        valley_film_nm=_of_some(np.mean, nm[film & (fields.heights < -Sq) & (Sq > 0.0)]),
+        torn_share=float(np.mean(fields.status[inside] == CAVITATED)),
         per_metre=mesh.is_line,
         mean_gap_nm=unit_nm * mean_gap,
         loaded_gap_nm=unit_nm * loaded_gap,
-        near_contact_load_share=share(nodes.P[near]),
-        solid_load_fraction=share((nodes.P - nodes.p)[solid]),
-        sealed_load_fraction=share(nodes.P[sealed]),
-        torn_filling=_of_some(np.mean, nodes.filling[torn]),
+        near_contact_load_share=share(fields.P[near]),
+        solid_load_fraction=share((fields.P - fields.p)[solid]),
+        sealed_load_fraction=share(fields.P[sealed]),
+        torn_filling=_of_some(np.mean, fields.filling[torn]),
     )
 
 

@@ -20,6 +20,7 @@ from mgehl.errors import OutputError, one_line
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.own_function import without_running
 from mgehl.output.checkpoint import is_begun
+from mgehl.output.fields import Fields
 from mgehl.output.files import (
     CONFIGURATION,
     COURSES,
@@ -38,7 +39,7 @@ from mgehl.output.files import NAMES as RUN_FILES
 from mgehl.output.frames import StoredFrames
 from mgehl.output.laws import is_law, laws_in, placed
 from mgehl.output.result import Result
-from mgehl.output.solution import Fields, Solution
+from mgehl.output.solution import Solution
 from mgehl.output.whole_file import is_plain
 
 

@@ -3,7 +3,8 @@
 from dataclasses import replace
 
 from mgehl.model.frame import Frame
-from mgehl.output.solution import Fields, Solution
+from mgehl.output.fields import Fields
+from mgehl.output.solution import Solution
 
 
 def solution_of(case, parts, problem, state, rows, result, maps=None):

@@ -8,7 +8,8 @@ from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.line import LineContact
 from mgehl.model.lubricant import Barus, ConstantDensity, Lubricant
 from mgehl.model.surface import Waviness
-from mgehl.output.mixed_result import Nodes, measured, patch_sizes
+from mgehl.output.fields import Fields
+from mgehl.output.mixed_result import measured, patch_sizes
 from mgehl.output.mixed_words import mixed_lines
 from mgehl.solver.gaps import within_hertz
 
@@ -26,10 +27,9 @@ def contact(paper_contact):
 @pytest.fixture
 def nodes():
     """A film of one thickness without pressure on level heights, inside a boundary."""
-    status = np.full((9, 17), LUBRICATED)
-    status[[0, -1]], status[:, [0, -1]] = BOUNDARY, BOUNDARY
+    status = np.pad(np.full((7, 15), LUBRICATED), 1, constant_values=BOUNDARY)
     level = [np.zeros((9, 17)) for _ in range(3)]
-    return Nodes(level[0], np.full((9, 17), FILM), status, level[1], level[2], np.ones((9, 17)))
+    return Fields(level[0], np.full((9, 17), FILM), status, level[1], np.ones((9, 17)), level[2])
 
 
 def touch(nodes, *places, P=1.0):
@@ -102,7 +102,7 @@ def test_a_line_contact_has_areas_of_a_metre_of_it():
     lubricant = Lubricant(Barus(0.096, 18.2e-9), ConstantDensity())
     contact = LineContact(1e5, 12.7e-3, 219.78e9, 1.0, lubricant, WAVES)
     P, film = np.zeros((1, 17)), np.full((1, 17), FILM)
-    nodes = Nodes(P, film, np.full((1, 17), LUBRICATED), 0.0 * P, 0.0 * P, np.ones((1, 17)))
+    nodes = Fields(P, film, np.full((1, 17), LUBRICATED), 0.0 * P, np.ones((1, 17)), 0.0 * P)
     touch(nodes, (0, 6), (0, 7), (0, 9))
     found = measured(contact, Mesh(17, 1, (-2.0, 2.0), (-0.5, 0.5)), nodes)
     assert found.contact_area_m2 == pytest.approx(3 * 0.25 * contact.hertz.a)
@@ -122,7 +122,7 @@ def test_sealed_is_what_no_path_leads_out_of(contact, rows):
         solid, P = chance.random((rows, 17)) < 0.45, chance.random((rows, 17))
         status = np.where(solid, CONTACT, np.where(chance.random(solid.shape) < 0.3, CAVITATED, LUBRICATED))
         level = np.zeros(solid.shape)
-        nodes = Nodes(P, level + FILM, status, level, P, level + 1.0)
+        nodes = Fields(P, level + FILM, status, P, level + 1.0, level)
         reached = [
             (j, i)
             for j in range(rows)

@@ -6,8 +6,8 @@ from xml.etree import ElementTree
 import numpy as np
 
 from mgehl.errors import UserError
+from mgehl.output.fields import Fields
 from mgehl.output.files import further_fields
-from mgehl.output.solution import Fields
 from mgehl.output.whole_file import whole_file
 
 HEAD = """\
