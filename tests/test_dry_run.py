@@ -41,7 +41,7 @@ def test_pictures_and_page_of_a_surface_by_a_formula(tmp_path):
     assert main(["plot", str(directory), "--format", "png"]) == 0
     assert (directory / "plots" / "surface.png").exists()
     assert main(["report", str(directory)]) == 0
-    assert "Contact is on the peaks" in (directory / "report.html").read_text()
+    assert 'alt="Heights of the surface with contact' in (directory / "report.html").read_text()
 
 
 def test_it_stops_and_goes_on(tmp_path, rough):

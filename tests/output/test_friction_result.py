@@ -98,7 +98,7 @@ def test_a_run_that_slides_has_its_shear_in_report_and_files(tmp_path):
     np.testing.assert_array_equal(read.fields.shear, solution.fields.shear)
     assert read.summary.friction == solution.summary.friction and read.fields.heights is None
     page = report(read, "here")
-    assert "Sliding takes" in page and "hear stress by sliding" in page
+    assert "hear stress by sliding" in page
 
 
 @pytest.mark.parametrize("surface", [None, {"kind": "waviness", "amplitude": 1e-7, "wavelength_x": 2e-4}])

@@ -49,13 +49,13 @@ def number(value, digits=6):
     return str(value) if isinstance(value, int) else f"{value + 0.0:.{digits}g}"
 
 
-def picture(caption, alt, content, media, size, name=""):
+def picture(caption, content, media, size, name=""):
     """A picture for the template, of a file's bytes, `size` inches (width, height); `media` is "image/png"
-    or so, `alt` says in words what it shows, `name` is its kind."""
+    or so, `caption` says in words what it shows, `name` is its kind."""
     width, height = size
     inches = round(float(width), 2) if width > WIDE * height else 0.0
     uri = f"data:{media};base64,{b64encode(content).decode()}"
-    return {"caption": caption, "alt": alt, "uri": uri, "inches": inches, "name": name}
+    return {"caption": caption, "uri": uri, "inches": inches, "name": name}
 
 
 def render(page, **run):

@@ -21,7 +21,7 @@ from mgehl.output.advice import beside_bands
 from mgehl.output.digits import pressure_words, with_band
 from mgehl.output.files import plain_result
 from mgehl.output.friction_result import coefficient_words, friction_lines
-from mgehl.output.mixed_words import gap_band_words, mean_gaps, mixed_note
+from mgehl.output.mixed_words import gap_band_words, mean_gaps
 from mgehl.output.pictures import style
 from mgehl.output.pictures.figures import drawn_by, figures
 from mgehl.output.report.page import BAD, DOUBTFUL, GOOD, NO_NUMBER, number, picture, render
@@ -30,13 +30,7 @@ from mgehl.output.summary import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import ADVICE as SURFACE
 from mgehl.output.surface import RESOLVED_NODES
 from mgehl.output.time_words import mean_gap_words, time_lines
-from mgehl.output.words import (
-    advice,
-    band_words,
-    heating_words,
-    largest_pressure_words,
-    span,
-)
+from mgehl.output.words import advice, band_words, heating_words, largest_pressure_words, span
 from mgehl.solver.recipe import A_STATE
 from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
 
@@ -132,6 +126,13 @@ def judged(verdict, words):
     return words, (GOOD if verdict in ("resolved", "sufficient") else DOUBTFUL)
 
 
+def shows(verdict, nodes):
+    """The row of the check that the grid shows the surface; nothing of smooth bodies."""
+    needed, advised = f"at least {RESOLVED_NODES:g}", SURFACE.get(verdict)
+    row = "nodes in the shortest wave of the surface", number(nodes, 3), needed, judged(verdict, advised)
+    return advised and row
+
+
 def from_each(records, names, digits=6):
     """Rows of some fields of records, which are dictionaries or have them as attributes."""
     for each in records:
@@ -154,14 +155,13 @@ def film(nm, half_width=None):
 FUNCTIONS = {
     "percent": lambda part: number(None if part is None else 100 * part, 4),
     "sentence": lambda words: f"{words[0].upper()}{words[1:]}.",
-    "SURFACE": SURFACE, "COMPLEMENTARITY_TOLERANCE": COMPLEMENTARITY_TOLERANCE,
+    "COMPLEMENTARITY_TOLERANCE": COMPLEMENTARITY_TOLERANCE,
     "FEWEST_NODES": FEWEST_NODES, "LARGEST_EDGE_PRESSURE": LARGEST_EDGE_PRESSURE,
-    "RESOLVED_CELLS": RESOLVED_CELLS, "RESOLVED_NODES": RESOLVED_NODES, "STARVED_FROM": STARVED_FROM,
-    "STANDS": STANDS,
+    "RESOLVED_CELLS": RESOLVED_CELLS, "STARVED_FROM": STARVED_FROM, "STANDS": STANDS,
 } | {
     each.__name__: each for each in (
-        number, limited, enough, absent, informing, judged, from_each, advice, band_words, gap_band_words,
-        mean_gaps, mixed_note, near_rest, of_inlet, span, carried, largest_pressure_words, time_lines,
+        number, limited, enough, absent, informing, judged, shows, from_each, advice, band_words,
+        gap_band_words, mean_gaps, near_rest, of_inlet, span, carried, largest_pressure_words, time_lines,
         mean_gap_words, heating_words, friction_lines, coefficient_words, pressure_words, pressure_unit,
     )
 }  # fmt: skip
@@ -198,7 +198,7 @@ def pictures(solution):
     with style.applied():
         for name, title, figure in figures(solution, kinds):
             content, size = style.rendered(figure, "svg"), figure.get_size_inches()
-            yield picture(FUNCTIONS["sentence"](title), "", content, "image/svg+xml", size, name)
+            yield picture(FUNCTIONS["sentence"](title), content, "image/svg+xml", size, name)
 
 
 def inputs_of(config):

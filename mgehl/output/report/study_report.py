@@ -60,11 +60,10 @@ def _picture(path):
         content = path.read_bytes()
     except OSError as error:
         raise OutputError(f"{path}: cannot be read: {error.strerror}") from None
-    alt = f"Picture of the study: {name}. Its numbers are in the tables above."
     dots = (0, 0)  # of a file that is no PNG
     if len(content) >= 24 and content.startswith(b"\x89PNG"):
         dots = struct.unpack(">II", content[16:24])
-    return picture(name, alt, content, "image/png", (dots[0] / DPI, dots[1] / DPI))
+    return picture(name, content, "image/png", (dots[0] / DPI, dots[1] / DPI))
 
 
 def _origin(record):

@@ -12,7 +12,7 @@ def test_every_text_is_escaped():
         {"what": [hostile]},
         {"tables": [table(hostile, ("a",), [("b",)])]},
         {"tables": [table("c", (hostile,), [(hostile,)], folded=True)]},
-        {"pictures": [picture(hostile, hostile, b"", "image/png", (4.0, 4.0))]},
+        {"pictures": [picture(hostile, b"", "image/png", (4.0, 4.0))]},
         {"verdict": (BAD, hostile, hostile)},
         {"title": hostile, "subtitle": hostile},
     ):

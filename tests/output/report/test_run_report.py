@@ -7,11 +7,9 @@ from made_solution import in_time, make_mixed
 from mpi4py import MPI
 
 import mgehl
-from mgehl.commands.plot import KINDS
 from mgehl.output.files import plain_result
 from mgehl.output.friction_result import FrictionResult, Temperatures
 from mgehl.output.gap_error import GapError, GridGap
-from mgehl.output.report.page import picture
 from mgehl.output.report.run_report import report, setting, verdict
 from mgehl.output.result import Mean, TimeError
 
@@ -168,18 +166,6 @@ def sheared(temperatures):
     return FrictionResult(
         "eyring", 0.5, 0.25, 0.125, 0.125, 0.0, 0.03125, 0.0, -12.5, 7.5, -2.5, 4.0, 40.0, temperatures
     )
-
-
-def test_every_picture_of_a_run_has_its_words(film_run, monkeypatch):
-    """A report of a ball that friction heats ended in an error: its flash temperatures had none."""
-    names = [name for name in KINDS if name not in ("all", "compare")]
-    drawn = [picture(f"{name}.", "", b"", "image/png", (1, 1), name) for name in names]
-    monkeypatch.setattr("mgehl.output.report.run_report.pictures", lambda solution: drawn)
-    page = Reader(
-        report(changed(film_run, friction=sheared(Temperatures(50.25, 60.25, 20.0, 90.0))), "my-run")
-    )
-    said = {value for _, name, value in page.attributes if name == "alt"}
-    assert len(said) == len(names) and "flash_2. Friction heats the surface by at most 60.25 K." in said
 
 
 def test_what_resists_and_what_heat_takes_are_in_the_words_of_the_terminal(film_run, quick):
