@@ -1,9 +1,22 @@
-"""A user's own functions: the key is named where one of them fails."""
+"""A user's own functions and files: the key is named where something is wrong with one of them."""
 
 from contextlib import contextmanager
 
 from mgehl.errors import ConfigError
 from mgehl.model.own_function import OwnFunctionError
+from mgehl.model.text_table import FileError
+
+
+@contextmanager
+def naming(said):
+    """Turn what is wrong with a user's file or function into a ConfigError. It begins as `said`, a key and
+    its value, which name a file already."""
+    try:
+        yield
+    except OwnFunctionError as error:
+        raise ConfigError(f"{said.partition(' ')[0]} = {error}") from None
+    except FileError as error:
+        raise ConfigError(f"{said}: {error.what if repr(error.path) in said else error}") from None
 
 
 @contextmanager

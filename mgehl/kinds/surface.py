@@ -3,20 +3,17 @@
 `contact.surface`, a function of the user's own, adds to them.
 """
 
-from contextlib import contextmanager
-
 import numpy as np
 
 from mgehl.errors import ConfigError
+from mgehl.kinds.own import naming
 from mgehl.kinds.surface_kinds import NAMES, every_surface, share_of, surface_of
 from mgehl.kinds.time import ways_of
 from mgehl.model.frame import direction
-from mgehl.model.own_function import OwnFunctionError
 from mgehl.model.own_laws import OwnSurface
 from mgehl.model.scene import Moved
 from mgehl.model.surface import Measured, summed
 from mgehl.model.surface.doubts import farthest
-from mgehl.model.surface.map import SurfaceFileError
 from mgehl.model.surface.self_affine import LARGEST_SPAN
 
 LINES = 256
@@ -80,7 +77,7 @@ def check_surfaces(config, contact, mesh):
     radius = min(config.contact.radius_x, np.inf if contact.is_line else config.contact.radius_y)
     x, y = mesh.X * contact.x_scale, mesh.Y * contact.y_scale
     for key, surface in parts_of(config):
-        with _naming(key):
+        with naming(key):
             if isinstance(surface, OwnSurface):
                 surface.check(x, y, contact.hertz.a)
             else:
@@ -98,7 +95,7 @@ def check_ways(config, contact, begin=(0.0, 0.0)):
     for key, surface in parts_of(config):
         if not isinstance(surface, Measured):
             continue
-        with _naming(key):
+        with naming(key):
             for way in ways_of(config, contact, key.partition(".")[0], begin):
                 _check_size(key, Moved(surface, way), contact, "on its way ")
 
@@ -107,27 +104,11 @@ def check_known(config, contact):
     """Raise ConfigError unless every surface has heights: an "auto" domain asks for them."""
     side = contact.hertz.a * np.linspace(-1.0, 1.0, 3)
     for key, surface in parts_of(config):
-        with _naming(key):
+        with naming(key):
             if isinstance(surface, OwnSurface):
                 surface.check(side, side, contact.hertz.a)
             else:
                 surface.height(side[None, :], side[:, None])
-
-
-@contextmanager
-def _naming(key):
-    """What is wrong with a surface becomes a ConfigError with its key."""
-    try:
-        yield
-    except OwnFunctionError as error:
-        raise ConfigError(f"contact.surface = {error}") from None
-    except SurfaceFileError as error:
-        raise ConfigError(f"{key}: {_about(error, key)}") from None
-
-
-def _about(error, key):
-    """What is wrong with a file, without its name: the key has said that already."""
-    return error.what if repr(error.path) in key else str(error)
 
 
 def _check_heights(key, surface, x, y, radius):

@@ -8,12 +8,13 @@ import numpy as np
 from mgehl.config_value import WrongUnitError, number, read_quantity, word
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, given
+from mgehl.kinds.own import naming
 from mgehl.kinds.surface_kinds import every_surface, share_of
 from mgehl.model.course import SAMPLES, Recorded, Table, course_of
 from mgehl.model.frame import direction
-from mgehl.model.own_function import OwnFunctionError, is_own
+from mgehl.model.own_function import is_own
 from mgehl.model.scene import CLOSE, Scene, directions
-from mgehl.model.text_table import FileError, unit_words
+from mgehl.model.text_table import unit_words
 
 
 @dataclass(frozen=True)
@@ -185,8 +186,9 @@ def _wrong_with(key, value, end):
     """What is wrong with a course until `end`; None where nothing is."""
     if end is None:
         return "changes with time, and time.end is not given"
-    _naming(key, value, lambda: course(key, value).check(end))
-    found = course(key, value)
+    with naming(f"{key} = {value!r}"):
+        found = course(key, value)
+        found.check(end)
     least, most = found.range(end)
     if key == "motion.angle":
         turned = max(least, most, key=abs)
@@ -203,7 +205,8 @@ def range_of(config, key):
     value = config.value(key)
     if not isinstance(value, str):
         return value, value
-    return _naming(key, value, lambda: course(key, value).range(config.time.end or 0.0))
+    with naming(f"{key} = {value!r}"):
+        return course(key, value).range(config.time.end or 0.0)
 
 
 def extremes(config, contact):
@@ -257,13 +260,3 @@ def scene_of(config, contact):
     slip, angle = config.motion.slip, course("motion.angle", config.motion.angle)
     surfaces = tuple((surface, share_of(body, slip)) for _, surface, body in every_surface(config))
     return Scene(contact, speed, load, surfaces, config.time.end, angle)
-
-
-def _naming(key, value, found):
-    """What `found()` is; what is wrong with a course becomes a ConfigError with its key."""
-    try:
-        return found()
-    except FileError as error:
-        raise ConfigError(f"{key} = {value!r}: {error.what}") from None
-    except OwnFunctionError as error:
-        raise ConfigError(f"{key} = {error}") from None

@@ -9,12 +9,7 @@ from mgehl.discretization.storage import content
 from mgehl.output.film_error import OF_AN_INSTANT
 from mgehl.output.mixed_result import mixed_result
 from mgehl.output.resolution import resolution
-from mgehl.output.result import (
-    ContactResult,
-    MoesFilm,
-    Overlap,
-    Result,
-)  # fmt: skip
+from mgehl.output.result import ContactResult, MoesFilm, Overlap, Result
 from mgehl.output.series import time_result
 from mgehl.output.words import undecided_words
 from mgehl.solver.gaps import loads
@@ -172,12 +167,9 @@ def _eq_2(problem, state):
 def _contradiction(node, nm):
     """What result.json says of a node that can be neither."""
     return {
-        "i": node.i,
-        "j": node.j,
-        "film_gap_nm": nm * node.gap,
-        "contact_pressure": node.pressure,
+        "i": node.i, "j": node.j, "film_gap_nm": nm * node.gap, "contact_pressure": node.pressure,
         "neighbours": list(node.neighbours),
-    }
+    }  # fmt: skip
 
 
 def _contact(problem, state, nm):

@@ -69,7 +69,7 @@ def report(solution, name):
             of_what=of_what, films=films_of(result, of_what) if kind == "loaded" else None,
             pictures=list(pictures(solution)), keys=list(keys_of(config)),
             inputs=list(inputs_of(config)), notes=list(notes_on(solution)),
-            odd=list(odd(config, solution.contact, _goes_on(result))),
+            odd=list(odd(config, solution.contact, (result.recipe or {}).get("begins") == A_STATE)),
             sources=list(sources_of(solution)),
             heads=heads, last=last, shown=shown,
             every="Every cycle" if len(shown) == len(rows) else f"{len(shown)} of {len(rows)} cycles",
@@ -92,11 +92,6 @@ def verdict(result):
         return DOUBTFUL, "Converged, but the bodies overlap"
     kind = GOOD if result.converged else DOUBTFUL if result.settled else BAD
     return kind, result.verdict[0].upper() + result.verdict[1:]
-
-
-def _goes_on(result):
-    """Whether a run in time began with the state of another run."""
-    return (result.recipe or {}).get("begins") == A_STATE
 
 
 def limited(name, value, limit):
