@@ -35,7 +35,8 @@ QUANTITIES = {
         "friction": ("friction.coefficient", "1", "friction", "friction.coefficient_band"),
         "friction_of_film": ("friction.film_coefficient", "1", "friction of the film"),
         "friction_of_solids": ("friction.solid_coefficient", "1", "friction of solids"),
-        "friction_of_rolling": ("friction.rolling_coefficient", "1", "rolling friction"),
+        "friction_of_rolling": ("friction.rolling_coefficient", "1", "rolling friction",
+                                "friction.rolling_band"),
         "flash_1_K": ("friction.temperatures.largest_1", "K", "surface of body 1"),
         "flash_2_K": ("friction.temperatures.largest_2", "K", "surface of body 2"),
         "film_K": ("friction.temperatures.film", "K", "film, on average"),
@@ -65,6 +66,10 @@ def numbers_and_bands():
 
 ALSO_AT = {"load_on_contact": "contact.load_fraction"}
 """Where result.json has a number once more."""
+
+BANDS = {each.path: each.band for each in QUANTITIES.values() if each.band}
+BANDS |= {path: QUANTITIES[name].band for name, path in ALSO_AT.items()}
+"""Where result.json has the half-width of a number's band, by where it has the number."""
 
 
 def told_at(result, path):

@@ -14,7 +14,7 @@ from rich.text import Text
 from mgehl.config import KEYS
 from mgehl.errors import printable
 from mgehl.output.digits import is_number, with_band
-from mgehl.output.quantities import of_what, read_told, told_at
+from mgehl.output.quantities import BANDS, of_what, read_told, told_at
 from mgehl.output.stored import read_texts
 from mgehl.output.words import span
 
@@ -31,37 +31,25 @@ COLUMNS = {
     "ranks": ("ranks", "d"),
     "converged": ("converged", yes),
     "load N": ("load_N", ".8g"),
-    "load ± N": ("load_band_N", ".4g"),
     "drag N": ("drag_N", ".5g"),
     "largest pressure MPa": ("max_pressure_MPa", ".5g"),
     "central nm": ("central_film_nm", ".4f"),
     "minimum nm": ("minimum_film_nm", ".4f"),
-    "central ± nm": ("error.central_nm", ".4g"),
-    "minimum ± nm": ("error.minimum_nm", ".4g"),
     "H_Moes central": ("moes_film.central", ".5f"),
     "H_Moes minimum": ("moes_film.minimum", ".5f"),
     "largest pressure GPa": ("max_pressure_GPa", ".5g"),
-    "largest pressure ± GPa": ("max_pressure_band_GPa", ".4g"),
     "approach um": ("approach_um", ".6g"),
-    "approach ± um": ("dry_error.approach_um", ".4g"),
     "residual": ("residual", ".1e"),
     "load error": ("load_error", ".1e"),
     "load on contact": ("contact.load_fraction", ".5f"),
-    "load on contact ±": ("mixed.error.contact_load_share", ".4g"),
     "load on solids": ("mixed.solid_load_fraction", ".5f"),
-    "load on solids ±": ("mixed.error.solid_load_fraction", ".4g"),
     "contact/Hertz area": ("contact.area_fraction", ".5f"),
-    "contact/Hertz area ±": ("dry_error.area_fraction", ".4g"),
     "mean gap nm": ("mixed.mean_gap_nm", ".7g"),
     "loaded gap nm": ("mixed.loaded_gap_nm", ".6g"),
-    "mean gap ± nm": ("mixed.error.mean_nm", ".4g"),
-    "loaded gap ± nm": ("mixed.error.loaded_nm", ".4g"),
     "friction": ("friction.coefficient", ".5g"),
-    "friction ±": ("friction.coefficient_band", ".4g"),
     "friction of film": ("friction.film_coefficient", ".4g"),
     "friction of solids": ("friction.solid_coefficient", ".4g"),
     "rolling friction": ("friction.rolling_coefficient", ".5g"),
-    "rolling friction ±": ("friction.rolling_band", ".4g"),
     "flash 1 K": ("friction.temperatures.largest_1", ".4g"),
     "flash 2 K": ("friction.temperatures.largest_2", ".4g"),
     "film K": ("friction.temperatures.film", ".4g"),
@@ -75,8 +63,8 @@ COLUMNS = {
     "domain": ("resolution.domain", "s"),
     "convolutions": ("work.convolutions", ".1f"),
 }
-"""What each column shows: where it is in result.json, and its format or a function. What has a band is
-rounded by that, and has digits enough before."""
+"""What each column shows: where it is in result.json, and its format or a function. What has a band, by
+`BANDS`, is rounded by that, and has digits enough before."""
 
 OF_HEAT = "flash 1 K", "flash 2 K", "film K"
 """Columns that only runs with temperatures have."""
@@ -116,6 +104,9 @@ def _row(directory, keys):
             if found is None and name in OF_HEAT:
                 continue
             row[name] = shape(found) if callable(shape) else "" if found is None else format(found, shape)
+            if path in BANDS:
+                half_width = told_at(result, BANDS[path])
+                row[_of_band(name)] = "" if half_width is None else f"{half_width:.4g}"
     if told.value("contact.kind") == "line":
         row.pop("approach um", None)  # it counts from a distance of a: loads cannot be compared
     if told.value("motion.slide_to_roll") is None:
@@ -126,6 +117,11 @@ def _row(directory, keys):
     of_all = nodes if told.value("contact.kind") == "line" else nodes**2
     row |= _work([each for each in history if int(each["grid"]) == nodes], of_all)
     return row | {"wall s": f"{result['wall_s']:.1f}"}
+
+
+def _of_band(column):
+    """The column of the half-width of a column's band."""
+    return UNIT.sub(r" ±\1", column, count=1)
 
 
 def said(value):
@@ -151,7 +147,7 @@ def with_bands(rows):
     """The rows of `collect` as shown: numbers with their bands and no more digits than those."""
 
     def shown(row, name):
-        band = row.get(UNIT.sub(r" ±\1", name, count=1))
+        band = row.get(_of_band(name))
         return with_band(float(row[name]), float(band)) if band else row[name]
 
     return [{name: shown(row, name) for name in row if "±" not in name} for row in rows]
