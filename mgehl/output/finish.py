@@ -3,18 +3,9 @@
 from pathlib import Path
 
 from mgehl.errors import one_line
+from mgehl.output import files
 from mgehl.output.checkpoint import START, read_begun
 from mgehl.output.directory import FINISHED, clear_checkpoint, made_before, publish
-from mgehl.output.files import (
-    CHECKPOINT,
-    FIELDS,
-    FRAMES,
-    PICTURE,
-    SERIES,
-    on_first_rank,
-    texts_of,
-    write_fields,
-)  # fmt: skip
 from mgehl.output.frames import write_frames
 from mgehl.output.laws import as_they_were, laws_of, put_files
 from mgehl.output.series import title_of, write_series
@@ -26,11 +17,11 @@ from mgehl.saying import complain
 def finish_run(comm, directory, solution, picture=True):
     """Replace the run in the directory by the files of a `Solution`, remove the checkpoint (collective).
     Raises OutputError where the disk does not take them; the run before and the checkpoint stay then."""
-    on_first_rank(comm, _finish, Path(directory), solution, picture)
+    files.on_first_rank(comm, _finish, Path(directory), solution, picture)
 
 
 def _finish(directory, solution, picture):
-    stage, texts = directory / CHECKPOINT / FINISHED, texts_of(solution)
+    stage, texts = directory / files.CHECKPOINT / FINISHED, files.texts_of(solution)
     with writing(directory):
         stage.mkdir(parents=True, exist_ok=True)
         begun = read_begun(directory)
@@ -39,17 +30,17 @@ def _finish(directory, solution, picture):
         put_files(stage, laws)
         for name, text in texts.items():
             write_whole(stage / name, text)
-        with whole_file(stage / FIELDS) as part:
-            write_fields(part, solution, texts)
-        names, title = [FIELDS, *texts, *laws], title_of(solution.config)
+        with whole_file(stage / files.FIELDS) as part:
+            files.write_fields(part, solution, texts)
+        names, title = [files.FIELDS, *texts, *laws], title_of(solution.config)
         if solution.config.is_in_time and solution.rows:
-            write_series(stage / SERIES, solution.rows, title)
-            names.append(SERIES)
+            write_series(stage / files.SERIES, solution.rows, title)
+            names.append(files.SERIES)
             if solution.frames:
-                write_frames(stage / FRAMES, solution.frames.all(), solution.x, solution.y, title)
-                names.append(FRAMES)
-        if picture and _is_drawn(stage / PICTURE, solution, directory):
-            names.append(PICTURE)
+                write_frames(stage / files.FRAMES, solution.frames.all(), solution.x, solution.y, title)
+                names.append(files.FRAMES)
+        if picture and _is_drawn(stage / files.PICTURE, solution, directory):
+            names.append(files.PICTURE)
         made = made_before(directory)
         publish(directory, stage, names)
     if made:
@@ -68,7 +59,7 @@ def _is_drawn(path, solution, directory):
         return True
     except Exception as error:  # what matplotlib raises is anybody's guess
         complain(
-            f"{directory / PICTURE}: cannot be drawn: {one_line(error)}; the results are there, and "
+            f"{directory / files.PICTURE}: cannot be drawn: {one_line(error)}; the results are there, and "
             f"mgehl run --resume {directory} draws it again"
         )
         return False
@@ -76,7 +67,7 @@ def _is_drawn(path, solution, directory):
 
 def draw_missing(directory):
     """Draw the picture of a finished run if it has none, remove its checkpoint; return the result."""
-    solution, path = read_run(directory), Path(directory) / PICTURE
+    solution, path = read_run(directory), Path(directory) / files.PICTURE
     clear_checkpoint(directory)
     if not path.exists():
         _is_drawn(path, solution, Path(directory))
@@ -93,7 +84,7 @@ def taken_up(directory):
     if begun is None:
         read_texts(directory)
         return None, None, []
-    folder = Path(directory) / CHECKPOINT
+    folder = Path(directory) / files.CHECKPOINT
     with writing(directory):
         config, said = as_they_were(begun, folder, directory)
     return config, read_run(folder / START) if begun.has_start else None, said

@@ -19,23 +19,9 @@ from mgehl.discretization.status import NAMES
 from mgehl.errors import OutputError, one_line
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.own_function import without_running
+from mgehl.output import files
 from mgehl.output.checkpoint import is_begun
 from mgehl.output.fields import Fields
-from mgehl.output.files import (
-    CONFIGURATION,
-    COURSES,
-    FIELDS,
-    FRAMES,
-    FURTHER,
-    HISTORY,
-    INPUTS,
-    PICTURE,
-    RESULT,
-    SERIES,
-    STUDY,
-    WHOLE,
-)  # fmt: skip
-from mgehl.output.files import NAMES as RUN_FILES
 from mgehl.output.frames import StoredFrames
 from mgehl.output.laws import is_law, laws_in, placed
 from mgehl.output.result import Result
@@ -77,23 +63,24 @@ def files_of(directory):
     """Names of the files that the run in a directory wrote; none where there is no run."""
     try:
         texts = read_texts(directory)
-        tables = tomllib.loads(texts[CONFIGURATION])
-        own = {*filter(is_law, laws_in(tables)), *({*RUN_FILES} & texts.keys())}
+        tables = tomllib.loads(texts[files.CONFIGURATION])
+        own = {*filter(is_law, laws_in(tables)), *({*files.NAMES} & texts.keys())}
     except (OutputError, ValueError, KeyError):
         return set()
-    return own | {FIELDS, PICTURE} | ({SERIES, FRAMES} if "end" in tables.get("time", {}) else set())
+    in_time = {files.SERIES, files.FRAMES} if "end" in tables.get("time", {}) else set()
+    return own | {files.FIELDS, files.PICTURE} | in_time
 
 
 def _read(directory, found):
     """What is `found(file, directory)` in the fields.h5 of a directory. Raises OutputError."""
     directory = Path(directory)
-    path = directory / FIELDS
+    path = directory / files.FIELDS
     if not is_plain(path):
         if is_begun(directory):
             raise OutputError(f"{directory}: has not finished: go on with: mgehl run --resume {directory}")
-        if is_plain(directory / STUDY):
+        if is_plain(directory / files.STUDY):
             raise OutputError(f"{directory}: is a sweep or a study, whose runs are {directory}/runs/*")
-        raise OutputError(f"{directory}: is no run directory: it has no {FIELDS}")
+        raise OutputError(f"{directory}: is no run directory: it has no {files.FIELDS}")
     try:
         with h5py.File(path, "r") as file:
             return found(file, directory)
@@ -102,17 +89,17 @@ def _read(directory, found):
 
 
 def _texts(file, _directory):
-    if WHOLE not in file:
+    if files.WHOLE not in file:
         raise ValueError("it is of mgehl 0.1: solve it anew")
-    return json.loads(file[WHOLE][()].tobytes())
+    return json.loads(file[files.WHOLE][()].tobytes())
 
 
 def _solution(file, directory):
     texts = _texts(file, directory)
-    tables, record = tomllib.loads(texts[CONFIGURATION]), json.loads(texts[RESULT])
+    tables, record = tomllib.loads(texts[files.CONFIGURATION]), json.loads(texts[files.RESULT])
     places = {name: str((directory / name).resolve()) for name in laws_in(tables)}
-    courses = {key: each[()] for key, each in file.get(COURSES, {}).items()}
-    config = placed(tables, places, courses).with_numbers(record.get(INPUTS, {}))
+    courses = {key: each[()] for key, each in file.get(files.COURSES, {}).items()}
+    config = placed(tables, places, courses).with_numbers(record.get(files.INPUTS, {}))
     named = config.as_toml_tables()["grid"]
     if config.kind.is_loaded and AUTO in (named.get("x"), named.get("y")):
         raise ValueError("it has no domain in numbers, as a finished run has")
@@ -121,15 +108,15 @@ def _solution(file, directory):
     fields, result, H0 = _fields(file, mesh), result_from(record), float(file.attrs["H0"])
     if not np.isfinite(H0):
         raise ValueError("H0 is not finite")
-    frames = StoredFrames(directory / FRAMES)
+    frames = StoredFrames(directory / files.FRAMES)
     kept = frames if config.is_in_time and is_plain(frames.path) else None
-    rows = _rows(texts[HISTORY])
+    rows = _rows(texts[files.HISTORY])
     return Solution(config, contact, mesh, fields, rows, result, H0, frames=kept)
 
 
 def _fields(file, mesh):
     """`Fields` of the whole grid of this mesh."""
-    names = ["P", "H", "status", *({"p", *FURTHER} & file.keys())]
+    names = ["P", "H", "status", *({"p", *files.FURTHER} & file.keys())]
     if any(file[name].shape != (mesh.ny, mesh.nx) for name in names):
         raise ValueError(f"its fields are not of {mesh.nx} x {mesh.ny} nodes")
     fields = Fields(**{name: file[name][()] for name in names})

@@ -10,24 +10,14 @@ from pathlib import Path
 import numpy as np
 
 from mgehl.output.pictures.style import GUIDE, subplots
+from mgehl.studies import waviness
 from mgehl.studies.columns import told
 from mgehl.studies.study import merged
-from mgehl.studies.waviness import (
-    ALPHA,
-    FLUIDS,
-    LINES,
-    MODULUS,
-    RADIUS,
-    SMALL,
-    VISCOSITY,
-    central_line,
-    line_case,
-)
 
 NODES = 1025
 """Of a line contact; waves of a half-width have 186 cells."""
 
-ROELANDS, BARUS = LINES
+ROELANDS, BARUS = waviness.LINES
 
 REFERENCE = {
     (100.0, 1.0): {0.5: 0.1307, 0.75: 0.1574, 1.0: 0.1807, 1.25: 0.1928, 1.5: 0.2133, 2.0: 0.2485},
@@ -89,7 +79,7 @@ def run(study):
 
 
 def _line(line, nodes):
-    return merged(line_case(*line), {"grid": {"nodes": nodes}})
+    return merged(waviness.line_case(*line), {"grid": {"nodes": nodes}})
 
 
 def _wave(study, smooth, line, length, s, nodes):
@@ -112,7 +102,7 @@ def passed(study, title, case, smooth, lengths, s=1.0):
     """The run in which small waves pass at s times the mean speed, and the swing of the film over their
     amplitude. `lengths` are keys of the surface, over the Hertz radius of the `smooth` solution."""
     contact, mesh = smooth.contact, smooth.mesh
-    amplitude, unit = SMALL * 1e-9 * smooth.result.central_film_nm, contact.x_scale / contact.speed
+    amplitude, unit = waviness.SMALL * 1e-9 * smooth.result.central_film_nm, contact.x_scale / contact.speed
     period = lengths["wavelength_x"] / s
     end = FRESH * (mesh.x[1] - mesh.x[0]) / min(s, 1.0) + period
     waves = {name: length * contact.x_scale for name, length in lengths.items()}
@@ -129,8 +119,8 @@ def point_case(M, L):
     """The tables of a point contact of these Moes numbers, by Roelands' law."""
     return {
         "moes": {"M": M, "L": L},
-        "contact": {"radius_x": RADIUS, "radius_y": RADIUS, "reduced_modulus": MODULUS},
-        "lubricant": {"viscosity": VISCOSITY, "pressure_viscosity": ALPHA, **FLUIDS[ROELANDS[2]]},
+        "contact": waviness.BODIES | {"radius_y": waviness.RADIUS},
+        "lubricant": waviness.oil(ROELANDS[2]),
         "grid": {"x": [-2.5, 1.5], "y": [-2.0, 2.0]},
     }
 
@@ -205,5 +195,5 @@ def _dimple(study):
 
 def _film_at(solution, x):
     """Film in nm on the line through the centre at x in m, on rank 0."""
-    line = central_line(solution)
+    line = waviness.central_line(solution)
     return 0.0 if line is None else 1e9 * float(np.interp(x, solution.x, line))

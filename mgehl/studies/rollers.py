@@ -3,17 +3,8 @@
 No oil can flow around such a peak. Otherwise they are drawn as those of study `machine`.
 """
 
+from mgehl.studies import machine
 from mgehl.studies.chance import by_logarithm, run_drawn
-from mgehl.studies.machine import (
-    RADIUS,
-    modulus_and_pressure,
-    p_h_of_one,
-    row_of,
-    self_affine,
-    several,
-    smooth_case,
-    with_surface,
-)
 
 NODES, CASES = 1025, 80
 
@@ -28,29 +19,30 @@ def run(study):
 
 def draw(cases, seed):
     """So many `Drawn`. A longer list begins with the same cases."""
-    return several(_drawn, cases, seed)
+    return machine.several(_drawn, cases, seed)
 
 
 def _drawn(chance, number):
     """One case: a cylinder and its oil first, then a roughness for their film and their contact."""
-    return with_surface(chance, number, smooth_case(chance, _cylinder(chance)), surface_of, NODES, SHORTEST)
+    smooth = machine.smooth_case(chance, _cylinder(chance))
+    return machine.with_surface(chance, number, smooth, surface_of, NODES, SHORTEST)
 
 
 def _cylinder(chance):
     """Radius, modulus and the load that presses smooth bodies as hard as was drawn."""
-    modulus, pressure = modulus_and_pressure(chance)
-    body = {"kind": "line", "radius_x": by_logarithm(chance, *RADIUS), "reduced_modulus": modulus}
-    return body | {"load_per_length": (pressure / p_h_of_one(body, "load_per_length")) ** 2}
+    modulus, pressure = machine.modulus_and_pressure(chance)
+    body = {"kind": "line", "radius_x": by_logarithm(chance, *machine.RADIUS), "reduced_modulus": modulus}
+    return body | {"load_per_length": (pressure / machine.p_h_of_one(body, "load_per_length")) ** 2}
 
 
 def surface_of(chance, number, rms, shortest):
     """Waves, or a random profile."""
     if chance.random() < 0.5:
         return {"kind": "waviness", "amplitude": rms * 2.0**0.5, "wavelength_x": shortest}
-    return self_affine(chance, number, rms, shortest)
+    return machine.self_affine(chance, number, rms, shortest)
 
 
 def row(case, solution):
     """Text of one case."""
     profile = "waves" if case.tables["surface"]["kind"] == "waviness" else "random"
-    return row_of(case, solution, {"profile": profile})
+    return machine.row_of(case, solution, {"profile": profile})

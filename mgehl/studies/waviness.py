@@ -25,6 +25,7 @@ LENGTHS = (1.0, 0.5)
 """Of waves, over the half-width."""
 
 MODULUS, RADIUS, VISCOSITY, ALPHA = 220e9, 12.7e-3, 0.04, 2.2e-8
+BODIES = {"radius_x": RADIUS, "reduced_modulus": MODULUS}
 
 FLUIDS = {
     "Roelands, compressible": {
@@ -61,18 +62,20 @@ def run(study):
     study.write_table("line", rows)
 
 
+def oil(fluid):
+    """The table of an oil, by the name of its laws."""
+    return {"viscosity": VISCOSITY, "pressure_viscosity": ALPHA, **FLUIDS[fluid]}
+
+
 def line_case(M, L, fluid):
     """The tables of a line contact of these Moes numbers."""
     twice_U = (L / (ALPHA * MODULUS)) ** 4
     return {
-        "contact": {
-            "kind": "line", "load_per_length": M * sqrt(twice_U) * MODULUS * RADIUS,
-            "radius_x": RADIUS, "reduced_modulus": MODULUS,
-        },
-        "lubricant": {"viscosity": VISCOSITY, "pressure_viscosity": ALPHA, **FLUIDS[fluid]},
+        "contact": BODIES | {"kind": "line", "load_per_length": M * sqrt(twice_U) * MODULUS * RADIUS},
+        "lubricant": oil(fluid),
         "motion": {"speed": 0.5 * twice_U * MODULUS * RADIUS / VISCOSITY},
         "grid": {"x": [-4.0, 1.5]},
-    }  # fmt: skip
+    }
 
 
 def _rows(study, grid, line):
