@@ -2,16 +2,8 @@
 
 import numpy as np
 
+from mgehl.kinds import time
 from mgehl.kinds.heat import solids_from
-from mgehl.kinds.time import (
-    ONLY_IN_TIME,
-    begins_at_rest,
-    course,
-    is_table,
-    range_of,
-    scene_of,
-    stands_still,
-)
 
 LARGEST_TURN = 180.0
 """Degrees from one value of a course to the next that may be meant."""
@@ -40,13 +32,13 @@ def implausible_in_time(config, contact, goes_on):
 
 def _parts_from_rest(config):
     """A start from rest: of surfaces that stay there, or of bodies without layers."""
-    if stands_still(config):
+    if time.stands_still(config):
         yield (
             "motion.speed is 0 throughout: without --start-from RUN, whose film is squeezed, the run "
             "begins with the dry contact in a bath of oil"
         )
         return
-    if config.contact.boundary_film or not begins_at_rest(config):
+    if config.contact.boundary_film or not time.begins_at_rest(config):
         return
     yield (
         "contact.boundary_film is not given: bodies at rest part on films as thin as rounding; until they "
@@ -58,10 +50,10 @@ def _odd_steps(config, contact):
     """Of a run in time whose surfaces go more cells in a step, or less of one, than suits its scheme."""
     if not config.time.step:
         return
-    fastest = max(map(abs, range_of(config, "motion.speed")))
+    fastest = max(map(abs, time.range_of(config, "motion.speed")))
     mesh = config.kind.mesh(config, contact)
     way = fastest * config.time.step * np.array(contact.motion)
-    scene = scene_of(config, contact)
+    scene = time.scene_of(config, contact)
     cells, most = scene.fastest(way, mesh), scene.most_asked
     mean, in_inlet = scene.most_cells(way, mesh), min(scene.most_in_inlet(t, mesh) for t in scene.extremes)
     if cells > most or mean > in_inlet:
@@ -80,7 +72,7 @@ def _leaps(config):
     """Of a direction that changes with time, where it turns nearly all the way back, as after 360."""
     if not isinstance(config.motion.angle, str):
         return
-    found = course("motion.angle", config.motion.angle)
+    found = time.course("motion.angle", config.motion.angle)
     turns = np.abs(np.diff([found.value(t) for t in found.times(config.time.end)])).max()
     if turns > LARGEST_TURN:
         yield (
@@ -91,11 +83,11 @@ def _leaps(config):
 
 def _long_tables(config):
     """Tables of which the run sees but the beginning."""
-    for key in ONLY_IN_TIME:
+    for key in time.ONLY_IN_TIME:
         value = config.value(key)
-        if not is_table(key, value):
+        if not time.is_table(key, value):
             continue
-        last = course(key, value).last
+        last = time.course(key, value).last
         if last > LONGER * config.time.end:
             yield (
                 f"{key} = {value!r}: goes on to {last:.4g} s, and the run ends at {config.time.end:.4g} s: "
@@ -106,7 +98,7 @@ def _long_tables(config):
 def _fast(config):
     """A speed that changes and becomes too large."""
     if isinstance(config.motion.speed, str):
-        fastest = max(map(abs, range_of(config, "motion.speed")))
+        fastest = max(map(abs, time.range_of(config, "motion.speed")))
         if fastest > FASTEST:
             yield (
                 f"motion.speed = {config.motion.speed!r}: up to {fastest:.4g} m/s: machines have 0 to "
