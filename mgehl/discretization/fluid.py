@@ -133,17 +133,12 @@ def _share(part, whole):
 ARITHMETIC = "arithmetic"
 """The paper's, the one mean that does not vanish with either side."""
 
-FACE_MEANS = {
-    ARITHMETIC: arithmetic_mean,
-    "geometric": geometric_mean,
-    "harmonic": harmonic_mean,
-}
+FACE_MEANS = {ARITHMETIC: arithmetic_mean, "geometric": geometric_mean, "harmonic": harmonic_mean}
 """Means of two mobilities with their slopes by both; the others are `MONOTONE`."""
 
 FOLDING = ("geometric", "harmonic")
 """Means by which the flow through a face falls again where its nodes differ by much. By the logarithmic
 mean it rises with the difference of the pressures, however large."""
-
 
 LINEAR_GAP = "linear-gap"
 """Not a mean of the mobility alone: it asks for the gap, too."""

@@ -79,10 +79,7 @@ class PointKind(LoadedKind):
         "lubricant.viscosity": "0.096 Pa*s", "lubricant.pressure_viscosity": "18.2 1/GPa",
         "motion.speed": "0.5 m/s", "grid.nodes": 129, "solver.start": "film",
     }  # fmt: skip
-    short = {
-        "contact.load": lambda load: f"{load:.4g} N",
-        "motion.angle": lambda angle: f"at {angle:g}°",
-    }
+    short = {"contact.load": lambda load: f"{load:.4g} N", "motion.angle": lambda angle: f"at {angle:g}°"}
 
     def check_keys(self, config):
         """A coating must leave a substrate that is possible; otherwise as any loaded contact."""

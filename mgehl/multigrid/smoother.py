@@ -4,12 +4,7 @@ import numpy as np
 
 from mgehl.discretization.axes import own
 from mgehl.discretization.band_kernels import REACH
-from mgehl.discretization.bands import (
-    LINES_BESIDE,
-    LineBands,
-    distributive_nodes,
-    influence_of_columns,
-)
+from mgehl.discretization.bands import LINES_BESIDE, LineBands, distributive_nodes, influence_of_columns
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.kernels import distribute
 from mgehl.grid.events import LINES, event

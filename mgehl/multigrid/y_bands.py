@@ -3,12 +3,7 @@
 import numpy as np
 
 from mgehl.discretization.band_kernels import REACH
-from mgehl.discretization.y_band_kernels import (
-    build_y_bands,
-    factor_y_bands,
-    solve_y_bands,
-    spans_of_nodes,
-)
+from mgehl.discretization.y_band_kernels import build_y_bands, factor_y_bands, solve_y_bands, spans_of_nodes
 from mgehl.grid.plane import even_shares, planes_of, shares_of_work
 
 WIDTH = 2 * REACH + 1

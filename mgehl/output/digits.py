@@ -8,10 +8,8 @@ from mgehl.kinds.kind import film_unit, pressure_unit
 MOST_DECIMALS = 9
 """Most decimals of nanometres: far below an atom, and within what a double holds."""
 
-
 LARGE = 1e7
 """From here on a number is told with four digits."""
-
 
 SMALL = 1e-7
 """The same below this: of a coefficient."""

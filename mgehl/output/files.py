@@ -43,7 +43,6 @@ INPUTS = "inputs"
 WHOLE = "run/texts"
 """Data set of fields.h5: its run's texts by their names, as JSON in bytes."""
 
-
 COURSES = "courses"
 """Group of fields.h5: what functions of the user's own gave for speed and load, which are not run again."""
 
@@ -126,7 +125,6 @@ FURTHER = {
 
 OF_FLUIDS = "fluid_pressure", "filling"
 """Those of them that dry contacts are without."""
-
 
 PACKED = {"compression": "gzip", "compression_opts": 1, "shuffle": True, "fletcher32": True}
 """How arrays are written. Shuffled, a double's like bytes lie side by side: a sixth less on the disk, in

@@ -49,7 +49,6 @@ OF_THE_FILM = "mean_nm", "loaded_nm", "friction", "rolling", *SHARES
 SMALLEST = 1e-4
 """Half-width at the least, over the gap or pressure, or in parts of the load."""
 
-
 SHOWN = {
     "loaded_nm": "the gap by pressure",
     "max_pressure_GPa": "the largest pressure",

@@ -13,7 +13,6 @@ from mgehl.solver.gaps import gaps_of, within_hertz
 BESIDE = np.ones((3, 3))
 """Nodes of one patch: all eight around a node are its neighbours."""
 
-
 NEAR = 1.1
 """Films of so many boundary films are contact on another grid, or by another tolerance."""
 

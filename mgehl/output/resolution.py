@@ -23,7 +23,6 @@ FILM_TOUCHES, CONTACT_OPENS = 1.5, 0.75
 FILM_IS_THE_GRIDS = 0.5
 """Cells below which films of contact that closes continuously touch by the grid, on 257 nodes."""
 
-
 STARVED_FROM = 1.0
 """A domain starves its film from so many per cent on that a domain of twice the size would have more."""
 

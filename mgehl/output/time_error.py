@@ -27,7 +27,6 @@ OF_FILMS = "central_film_nm", "minimum_film_nm"
 SHARES = "load_on_contact", "load_on_solids"
 """Columns that are parts of the load."""
 
-
 OPENS = 0.5
 """Part of the load by which one of these changes where contact opens or closes as a whole: its mean hangs
 on when, and two grids differed by .07 where the limit was .12 off."""

@@ -37,7 +37,6 @@ MOST_ITERATIONS = 200
 GUESS, GUESS_GAP = 0.03, 1e-3
 """Errors of a first guess at a node, in units of P and of H: as good as the exact dry contact."""
 
-
 FIRST_NODES, NESTED_NODES = 65, 257
 """Nodes of the first coarse grid, and of the smallest finest grid for which coarse grids pay."""
 

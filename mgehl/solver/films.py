@@ -14,7 +14,6 @@ _OFFSETS = np.array([-1.0, 0.0, 1.0])
 _WEIGHTS = np.array([0.5, 1.0, 0.5])
 """Of the nodes in the fit of a paraboloid: those in the corners count least."""
 
-
 AROUND = 3
 """Nodes on each side of the centre over which a difference of films is looked at."""
 

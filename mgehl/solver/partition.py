@@ -18,14 +18,7 @@ from scipy.ndimage import maximum_filter
 
 from mgehl.discretization.axes import own
 from mgehl.discretization.mesh import HALO
-from mgehl.discretization.status import (
-    CAVITATED,
-    CONTACT,
-    LUBRICATED,
-    NAMES,
-    enclosed,
-    is_fluid,
-)
+from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED, NAMES, enclosed, is_fluid
 from mgehl.solver.cavitation import overflows
 from mgehl.solver.record import Kept
 

@@ -21,13 +21,7 @@ class Step(Kept):
 class Position(Kept):
     """The present state and what is remembered of the way; written by `Newton` alone."""
 
-    PARTS = {
-        "state": State,
-        "past": Past,
-        "changes": Changes,
-        "step": Step,
-        "memory": Record,
-    }
+    PARTS = {"state": State, "past": Past, "changes": Changes, "step": Step, "memory": Record}
     ROWS = {"cycles": ("history", Cycle)}
 
     state: State

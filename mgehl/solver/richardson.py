@@ -29,7 +29,6 @@ FASTER = 0.5
 """By how much the observed order may exceed the scheme's. Beyond that, the last difference is taken to be
 small by chance. With 0 bands are wider; with 1 some are too narrow."""
 
-
 SPREADS, SPREADS_OF_TWO, WIDER = 0.9, 1.3, 2.0
 """Safety of the minimum film: how much of the estimated error's spread around it is added, with three grids
 and, as squares are, with two; and by how much more where the next grid has another film."""

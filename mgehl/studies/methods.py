@@ -39,10 +39,7 @@ def run(study):
 
 
 def _solve(study, name, case, method):
-    how = {
-        "solver": {"method": method, "tolerance": TOLERANCE},
-        "relaxation": {"max_sweeps": SWEEPS[name]},
-    }
+    how = {"solver": {"method": method, "tolerance": TOLERANCE}, "relaxation": {"max_sweeps": SWEEPS[name]}}
     # Whether the relaxation gets there is what the study asks.
     by_newton = method == "newton-mg"
     return study.solve(f"{method}, {name}", merged(PAPER, case, how), by_newton)

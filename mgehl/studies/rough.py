@@ -24,7 +24,6 @@ SLIDES = {
 }  # fmt: skip
 """Friction that does not thin the film."""
 
-
 BANDED = {
     "mean gap": "mean_gap_nm",
     "gap by pressure": "loaded_gap_nm",

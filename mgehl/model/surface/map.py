@@ -14,21 +14,9 @@ UNEVEN = 1e-3
 """Of a step, by which it may differ from the others."""
 
 UNITS = {
-    "m": 1.0,
-    "mm": 1e-3,
-    "um": 1e-6,
-    "µm": 1e-6,
-    "μm": 1e-6,
-    "nm": 1e-9,
-    "A": 1e-10,
-    "Å": 1e-10,
-    "pm": 1e-12,
-    "in": 25.4e-3,
-    "inch": 25.4e-3,
-    "uin": 25.4e-9,
-    "µin": 25.4e-9,
-    "μin": 25.4e-9,
-}
+    "m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9, "A": 1e-10, "Å": 1e-10,
+    "pm": 1e-12, "in": 25.4e-3, "inch": 25.4e-3, "uin": 25.4e-9, "µin": 25.4e-9, "μin": 25.4e-9,
+}  # fmt: skip
 """Lengths in m, as files and configurations name them."""
 
 

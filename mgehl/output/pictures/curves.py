@@ -48,7 +48,6 @@ ROOM = 1.05
 NOT_HERE = {"color": "0.4", "marker": "|", "linestyle": "none", "markersize": 10}
 """On the upper edge, where a run has no answer."""
 
-
 HOLLOW = "white"
 """Face of a point without a band that others of its kind have: it is the grid's."""
 
