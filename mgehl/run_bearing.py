@@ -23,7 +23,7 @@ def solve_bearing(case, parts, comm, watch):
     coarser, why_no_more = _coarser(case)
     loads, found = _on_coarser(coarser, comm, watch)
     with _solved_bearing(parts, comm, watch, found) as (problem, outcome):
-        result = summarise_wedge(problem, outcome, 0.0, versions())
+        result = summarise_wedge(problem, outcome, versions())
         rows = progress.wedge_rows(parts.mesh.nx, outcome.cycles)
         for row in rows:
             watch.speaker.row(row)
@@ -51,7 +51,7 @@ def _on_coarser(coarser, comm, watch):
     loads, found = [], None
     for nodes, parts in reversed(coarser):
         with _solved_bearing(parts, comm, watch, found) as (problem, outcome):
-            result = summarise_wedge(problem, outcome, 0.0, {})
+            result = summarise_wedge(problem, outcome, {})
             loads.insert(0, (nodes, result.load_N if result.converged else None))
             begins = result.converged and parts.settings.scheme.cavitation
             found = Found.of(problem, outcome.state) if begins else None

@@ -9,9 +9,9 @@ from mgehl.errors import UserError
 from mgehl.output.centre_line import centre_pressure
 from mgehl.output.pictures import wedge_picture
 from mgehl.output.pictures.history import column, cycles, grids
-from mgehl.output.pictures.lines import ANYWHERE, line_of, names, set_axes, unit_of
+from mgehl.output.pictures.lines import lines_on
 from mgehl.output.pictures.style import COLOURS, GUIDE, HERTZ, legend_under_all, subplots
-from mgehl.output.pictures.titles import common_labels, common_title, gap_words
+from mgehl.output.pictures.titles import common_title
 
 STROKES = "-", "--", "-.", ":"
 """One for each round through the colours."""
@@ -26,22 +26,12 @@ def compare_lines(solutions, labels):
         return _compare_bearings(solutions, labels)
     panels = 1 if solutions[0].mesh.is_line else 2
     figure, axes = subplots(2, panels, size=(1.2 + 4.9 * panels, 7.2), squeeze=False)
-    called = {names(solution) for solution in solutions}
-    called = called.pop() if len(called) == 1 else ANYWHERE
-    factor, unit = unit_of(solutions)
-    lines = [[line_of(each, across, factor) for each in solutions] for across in range(panels)]
-    set_axes(axes, lines)
-    for (above, below), own, title, x in zip(axes.T, lines, called, common_labels(solutions), strict=False):
+    for (above, below), own in zip(axes.T, lines_on(axes, solutions), strict=True):
         for line, label, style in zip(own, labels, _styles(), strict=False):
             above.plot(line.X, line.P, label=label, **style)
             below.plot(line.X, line.film, label=label, **style)
         for line in {line.hertz.max(): line for line in own}.values():
             above.plot(line.fine, line.hertz, ":", color=HERTZ, linewidth=1, label="Hertz")
-        above.set_title(title)
-        below.set_xlabel(x)
-    units = dict.fromkeys(gap_words(solution.contact)[1] for solution in solutions)
-    axes[0, 0].set_ylabel(f"pressure, {unit}")
-    axes[1, 0].set_ylabel(" or ".join(units))
     end = " at the end" if any(each.last for each in solutions) else ""
     return _finished(figure, axes[0, 0], f"centre lines{end}", solutions)
 

@@ -9,7 +9,7 @@ from mgehl.kinds.kind import pressure_unit
 from mgehl.model.hertz import hertz_pressure
 from mgehl.output.pictures import style
 from mgehl.output.pictures.plane import DECADES, LINEAR
-from mgehl.output.pictures.titles import gap_words, position_labels, title_with_films
+from mgehl.output.pictures.titles import common_labels, gap_words, title_with_films
 
 INSIDE = {0.8: 3.0, 1.25: 1.0}
 """Parts of the dry contact whose films make the axis of films, the second where the first is all contact;
@@ -78,32 +78,34 @@ def centre_lines(solution):
 
 def draw_lines(axes, solution):
     """Pressures on the first row of axes, films on the second, along x and along y; their handles."""
-    factor, unit = unit_of([solution])
-    lines = [line_of(solution, across, factor) for across in range(len(axes[0]))]
-    set_axes(axes, [[line] for line in lines])
-    called, labels = names(solution), position_labels(solution)
-    axes[0, 0].set_ylabel(f"pressure, {unit}")
-    axes[1, 0].set_ylabel(gap_words(solution.contact)[1])
     handles = []
-    for (pressures, films), line, title, label in zip(axes.T, lines, called, labels, strict=False):
+    for (pressures, films), (line,) in zip(axes.T, lines_on(axes, [solution]), strict=True):
         handles += _draw(pressures, films, line, solution)
-        pressures.set_title(title)
-        films.set_xlabel(label)
     return handles
 
 
-def unit_of(solutions):
-    """`pressure_unit` of the largest pressure of runs."""
-    return pressure_unit(1e-9 * max(each.pressure.max() for each in solutions))
+def lines_on(axes, solutions):
+    """The `CentreLine`s of runs for each column of axes, which get their limits and words."""
+    factor, unit = pressure_unit(1e-9 * max(each.pressure.max() for each in solutions))
+    lines = [[line_of(each, across, factor) for each in solutions] for across in range(axes.shape[1])]
+    _limit(axes, lines)
+    called = {_names(each) for each in solutions}
+    titles = called.pop() if len(called) == 1 else ANYWHERE
+    for (above, below), title, label in zip(axes.T, titles, common_labels(solutions), strict=False):
+        above.set_title(title)
+        below.set_xlabel(label)
+    axes[0, 0].set_ylabel(f"pressure, {unit}")
+    axes[1, 0].set_ylabel(" or ".join(dict.fromkeys(gap_words(each.contact)[1] for each in solutions)))
+    return lines
 
 
-def names(solution):
+def _names(solution):
     """What the two lines are called, by the direction of the motion, if there is one."""
     way = ALONG.get(solution.motion[0])
     return (f"Y = 0, along the motion ({way})", "X = 0, across the motion") if way else ANYWHERE
 
 
-def set_axes(axes, lines):
+def _limit(axes, lines):
     """Limits for some `CentreLine`s, of each column of axes: what is loaded is shown, and films inside the
     dry contact can be read, on a logarithmic axis where they differ much. It begins below 0 only where
     bodies overlap."""

@@ -81,9 +81,9 @@ def report(solution, name):
 def odd(config, contact, goes_on):
     """What is unusual in the input, as far as its files are still there: the result needs them no more."""
     try:
-        yield from implausible(config, contact, goes_on)
+        yield from (f"unusual: {words}" for words in implausible(config, contact, goes_on))
     except UserError as error:
-        yield f"the rest could not be looked at: {error}"
+        yield f"unusual: the rest could not be looked at: {error}"
 
 
 def verdict(result):
