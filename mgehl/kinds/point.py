@@ -107,7 +107,12 @@ class PointKind(LoadedKind):
 
     def check(self, config, contact):
         """As for any loaded contact; besides, the radii must not be too different."""
-        _check_radii(config.contact)
+        radii = config.contact.radius_x, config.contact.radius_y
+        if max(radii) > LARGEST_RADIUS_RATIO * min(radii):
+            raise ConfigError(
+                f"contact.radius_y = {radii[1]:g}: must be within a factor of {LARGEST_RADIUS_RATIO:g} of "
+                f"contact.radius_x = {radii[0]:g}"
+            )
         super().check(config, contact)
 
     def size(self, config, contact):
@@ -159,12 +164,3 @@ def _deformation_from(config):
         return Coating(**asdict(config.coating), reduced_modulus=config.contact.reduced_modulus)
     name = config.contact.deformation
     return OwnCompliance(OwnFunction(name)) if is_own(name) else None
-
-
-def _check_radii(section):
-    ratio = max(section.radius_x, section.radius_y) / min(section.radius_x, section.radius_y)
-    if ratio > LARGEST_RADIUS_RATIO:
-        raise ConfigError(
-            f"contact.radius_y = {section.radius_y:g}: must be within a factor of "
-            f"{LARGEST_RADIUS_RATIO:g} of contact.radius_x = {section.radius_x:g}"
-        )

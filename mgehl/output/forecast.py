@@ -155,11 +155,6 @@ def bytes_of_nodes(effort, mesh, most=False):
     return (each - (SAVED_ON_LARGE_GRIDS if is_large(mesh) else 0.0)) * mesh.nodes
 
 
-def bytes_of_rank(effort, mesh, ranks):
-    """The most on the rank that has most of the nodes: one solves a line contact."""
-    return bytes_of_nodes(effort, mesh, most=True) / (1 if mesh.is_line else ranks)
-
-
 def effort_of(config, contact, mesh):
     """That of the way to a steady state and, in time, of the steps."""
     steady = _steady_effort(config, contact, mesh)
@@ -225,8 +220,8 @@ def check_memory(case, ranks):
     limit, _ = resource.getrlimit(resource.RLIMIT_AS)
     if limit == resource.RLIM_INFINITY:
         return
-    effort = effort_of(case.config, case.contact, case.mesh)
-    need = _taken() + SPARE + bytes_of_rank(effort, case.mesh, ranks)
+    effort, at_work = effort_of(case.config, case.contact, case.mesh), 1 if case.mesh.is_line else ranks
+    need = _taken() + SPARE + bytes_of_nodes(effort, case.mesh, most=True) / at_work
     if need > limit:
         what, nodes = f"about {need / MiB:.0f} MiB of address space", case.config.grid.nodes
         raise UserError(

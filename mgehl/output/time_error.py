@@ -53,9 +53,9 @@ def time_error(result, problem, scene, asked, progress, beside):
 
 def _without(columns, error):
     """A `TimeError` without bands of some columns."""
-    parts = {name: getattr(error, name) for name in ("means", "whole", "at_the_end")}
     left = {
-        name: {of: half for of, half in part.items() if of not in columns} for name, part in parts.items()
+        name: {of: half for of, half in getattr(error, name).items() if of not in columns}
+        for name in ("means", "whole", "at_the_end")
     }
     return replace(error, **left)
 

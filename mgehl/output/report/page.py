@@ -35,7 +35,7 @@ def table(caption, columns, rows, folded=False):
     whole = [row for row in cells if len(row) == len(columns)]
     numeric = [_is_numeric([row[k][0] for row in whole]) for k in range(len(columns))]
     heads, *cells = (
-        [(text, kind or ("number" if right else _text_kind(text)))
+        [(text, kind or ("number" if right else "short" if 0 < len(text) <= LONGEST_UNBROKEN else ""))
          for (text, kind), right in zip(row, numeric, strict=False)]
         for row in ([(name, "") for name in columns], *cells)
     )  # fmt: skip
@@ -67,10 +67,6 @@ def render(page, **run):
     )  # fmt: skip
     told = {"solution": None, "contents": [], "highlights": [], "made_table": table, "version": VERSION}
     return environment.get_template("report.html.j2").render(told | run, page=page)
-
-
-def _text_kind(text):
-    return "short" if 0 < len(text) <= LONGEST_UNBROKEN else ""
 
 
 def _is_numeric(texts):

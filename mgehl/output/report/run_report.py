@@ -61,6 +61,7 @@ def report(solution, name):
     of_what = of_formulas(config) if kind == "loaded" else ""
     mark = "" if result.converged else " (in doubt)" if result.settled else " (not converged)"
     mark = " at the end" + mark if result.time else mark
+    how = {each.key: each.how for each in config.derived}
     with naming_keys(solution.contact):  # some numbers ask the user's own laws again
         return render(
             page, **FUNCTIONS, kind=kind, mark=mark, solution=solution, result=result, config=config,
@@ -68,9 +69,11 @@ def report(solution, name):
             tolerance=config.solver.tolerance,
             of_what=of_what, films=films_of(result, of_what) if kind == "loaded" else None,
             pictures=list(pictures(solution)), keys=list(keys_of(config)),
-            inputs=list(inputs_of(config)), notes=list(notes_on(solution)),
+            inputs=[((key, "code"), config.said(key), how.get(key, "")) for key in config.physical],
+            notes=list(notes_on(solution)),
             odd=list(odd(config, solution.contact, (result.recipe or {}).get("begins") == A_STATE)),
-            sources=list(sources_of(solution)),
+            sources=[(each.people, each.title, f"{each.where}, {each.year}", each.doi)
+                     for each in map(SOURCES.get, cited(config, solution.contact))],
             heads=heads, last=last, shown=shown,
             every="Every cycle" if len(shown) == len(rows) else f"{len(shown)} of {len(rows)} cycles",
             versions=[(package, (text, "code")) for package, text in result.versions.items()],
@@ -196,13 +199,6 @@ def pictures(solution):
             yield picture(FUNCTIONS["sentence"](title), content, "image/svg+xml", size, name)
 
 
-def inputs_of(config):
-    """Rows of every key that makes the contact, with what those follow from that nobody gave."""
-    how = {each.key: each.how for each in config.derived}
-    for key in config.physical:
-        yield (key, "code"), config.said(key), how.get(key, "")
-
-
 def notes_on(solution):
     """Sentences on the films of a lubricated contact: what formulas assume, and beside the bands."""
     contact = solution.contact
@@ -210,12 +206,6 @@ def notes_on(solution):
         if solution.result.formulas:
             yield "What the formulas assume: " + "; ".join(assumptions(contact))
         yield from beside_bands(solution)
-
-
-def sources_of(solution):
-    """Rows of the publications that a run used."""
-    for source in (SOURCES[key] for key in cited(solution.config, solution.contact)):
-        yield source.people, source.title, f"{source.where}, {source.year}", source.doi
 
 
 def keys_of(config):
