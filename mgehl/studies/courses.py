@@ -164,5 +164,5 @@ def figure(courses):
             panel.plot(t, films, color=colour, label=f"{name} film")
         panel.set(title=title, xlabel="time, ms", yscale="log")
     panels[0].set_ylabel("nm")
-    panels[0].legend(frameon=False)
+    panels[0].legend()
     return drawn

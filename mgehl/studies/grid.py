@@ -125,7 +125,7 @@ def against_hertz(profiles):
         gap.set_xlabel(name)
     panels[0, 0].set_ylabel("(p - p$_{Hertz}$)/p$_h$")
     panels[1, 0].set_ylabel("gap left in contact, nm")
-    panels[0, 0].legend(frameon=False)
+    panels[0, 0].legend()
     figure.suptitle("0.005 mm/s: contact pressure against Hertz, and the residual gap")
     return figure
 
@@ -146,5 +146,5 @@ def before_interface(profiles):
     panels[0].set(ylabel="P = p/p$_h$", title="a  fluid pressure")
     panels[1].set(ylim=(-5.0, 400.0), ylabel="gap, nm", title="b  gap")
     panels[2].set(ylim=(1e-7, 1.0), ylabel="P = p/p$_h$", title="c  with one node in contact")
-    panels[0].legend(frameon=False)
+    panels[0].legend()
     return figure

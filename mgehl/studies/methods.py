@@ -97,5 +97,5 @@ def figure(cases):
             panel.plot(work, [row["residual"] for row in finest], color=colour, label=method)
         panel.set(xscale="log", yscale="log", xlabel="fine-grid convolutions", title=name)
     panels[0, 0].set_ylabel("true residual (rms)")
-    panels[0, 0].legend(frameon=False)
+    panels[0, 0].legend()
     return figure

@@ -156,7 +156,7 @@ def figure(points):
     solved = np.array([[float(row["n"]), float(row["swing/A"])] for row in points]).T
     axis.plot(*solved, "o", label="solved")
     axis.set(xscale="log", xlabel="n = (wavelength/a) sqrt(M/L)", ylabel="amplitude left", ylim=(0.0, 1.05))
-    axis.legend(frameon=False)
+    axis.legend()
     return drawn
 
 

@@ -76,9 +76,9 @@ def figure(nodes, films):
         for (scheme, values), colour, mark in zip(films.items(), COLOURS, MARKS, strict=False):
             heights = [value[which] for value in values]
             spacing = [1.0 / (n - 1) for n in nodes]
-            panel.plot(spacing, heights, mark + "-", color=colour, markersize=4, label=scheme)
+            panel.plot(spacing, heights, mark + "-", color=colour, label=scheme)
         panel.set(xlabel="spacing over length of the domain", ylabel="film, nm", title=title)
         panel.set_xlim(left=0.0)
-    panels[1].legend(frameon=False)
+    panels[1].legend()
     figure.suptitle("Point contact at 1 m/s by every differential scheme")
     return figure

@@ -109,8 +109,8 @@ def figure(curves):
     strokes = {"at rest": "--o", "moving": "-s"}
     for (oil, motion), (ratio, solids) in curves.items():
         colour = COLOURS[list(OILS).index(oil)]
-        axis.plot(ratio, solids, strokes[motion], color=colour, markersize=4, label=f"{oil}, {motion}")
+        axis.plot(ratio, solids, strokes[motion], color=colour, label=f"{oil}, {motion}")
     axis.set(xscale="log", xlabel="lambda: film of smooth bodies over Sq")
     axis.set(yscale="log", ylabel="part of the load on solids")
-    axis.legend(frameon=False)
+    axis.legend()
     return figure

@@ -110,9 +110,9 @@ def films_and_contact(points):
         for name, line in (("central", "-"), ("minimum", ":")):
             film = [getattr(point.result, f"{name}_film_nm") for point in own]
             label = f"{name}, {branch}"
-            films.plot(mm_s, np.maximum(film, 0.0), mark + line, color=colour, ms=4, label=label)
+            films.plot(mm_s, np.maximum(film, 0.0), mark + line, color=colour, label=label)
         area = [point.result.contact.area_fraction for point in own]
-        ratio.plot(mm_s, area, mark + "-", color=colour, ms=4, label=branch)
+        ratio.plot(mm_s, area, mark + "-", color=colour, label=branch)
     own = sorted((each for each in points if each.branch == points[0].branch), key=lambda each: each.speed)
     formulas = [point.solution.contact.formulas for point in own]
     for name, grey in zip(formulas[0], GREYS, strict=False):
@@ -123,7 +123,7 @@ def films_and_contact(points):
     films.set_ylim(bottom=-0.1)
     ratio.set(xscale="log", xlabel="speed, mm/s", ylabel="contact area over Hertz area")
     for axes in (films, ratio):
-        axes.legend(frameon=False)
+        axes.legend()
     directions = " and ".join(dict.fromkeys(point.branch for point in points))
     figure.suptitle(f"{_name(points)}: film and contact, speed going {directions}")
     return figure
@@ -146,7 +146,7 @@ def figure_14(points):
     across.set_title("a  film at X = 0")
     inlet.set(xlim=(-1.3, -0.7), ylim=(-0.02, 0.8), xlabel="X = x/a", ylabel="P = p/p$_h$")
     inlet.set_title("b  pressure at Y = 0 on the inlet side")
-    inlet.legend(frameon=False)
+    inlet.legend()
     mixed = min(own, key=lambda point: abs(point.result.contact.area_fraction - 0.5))
     _film_map(figure, film, mesh, mixed, nm)
     figure.suptitle(f"{_name(points)}, {branch}")

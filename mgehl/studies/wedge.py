@@ -128,7 +128,7 @@ def centre_lines(solutions):
     X = np.linspace(20.0, 48.0, 15)
     series = WedgeSeries(20.0, 50.0, 20.0, True)
     label = "blocked exit, series"
-    axes.plot(X, series.pressure(X), "s", color=COLOURS["blocked exit"], markersize=4, label=label)
+    axes.plot(X, series.pressure(X), "s", color=COLOURS["blocked exit"], label=label)
     _finish(axes, "Figure 9: pressure on Y = 0")
     return figure
 
@@ -151,4 +151,4 @@ def untreated(solutions):
 def _finish(axes, title):
     axes.axhline(0.0, color="0.8", linewidth=0.8, zorder=0)
     axes.set(xlabel="X, mm", ylabel="P = m$^2$p/($\\eta$u), 1/mm", title=title)
-    axes.legend(frameon=False)
+    axes.legend()

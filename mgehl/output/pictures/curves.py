@@ -108,7 +108,7 @@ def _hollow(figure):
     """Of points without a band, for a legend; none where all have one."""
     lines = [line for axis in figure.axes for line in axis.lines if line.get_markerfacecolor() == HOLLOW]
     there = any(np.isfinite(line.get_ydata()).any() for line in lines)
-    look = {"marker": "o", "markerfacecolor": HOLLOW, "markersize": 4, "linestyle": "none", "color": "0.4"}
+    look = {"marker": "o", "markerfacecolor": HOLLOW, "linestyle": "none", "color": "0.4"}
     return [Line2D([], [], label="no band: the grid's", **look)] * there
 
 
@@ -189,7 +189,7 @@ def _draw_group(axis, group, key, panel, factor):
         handles.append(line)
         bare = np.isnan(width) & np.isfinite(width).any()
         for part, face in ((~bare, colour), (bare, HOLLOW)):
-            axis.plot(at[part], y[part], mark, color=colour, markerfacecolor=face, markersize=4)
+            axis.plot(at[part], y[part], mark, color=colour, markerfacecolor=face)
         if np.isfinite(width).any():
             axis.errorbar(at, y, np.where(bare, 0.0, width), fmt="none", ecolor=colour, capsize=2)
     return handles
