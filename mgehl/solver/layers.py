@@ -5,8 +5,9 @@ import numpy as np
 from mgehl.discretization.axes import own
 from mgehl.discretization.status import CONTACT
 
-NEARLY_ALL = 0.999
-"""Part of what an infinite pressure would drive under contact that a step may ask for."""
+ALL = 1.0 - np.finfo(float).eps
+"""Part of what an infinite pressure would drive under contact that a step may ask for: no pressure drives
+more, and contact opens. With 0.999 a film waits at each node, and takes up to twice the work."""
 
 
 class FluidInLayers:
@@ -32,8 +33,8 @@ class FluidInLayers:
 
 def by_reduced_pressure(change, stiffening):
     """The change of a pressure whose fluid stiffens by e^(`stiffening` p), by that of its reduced pressure,
-    in which the flow under contact is linear; at most the one that drives nearly all that any could."""
+    in which the flow under contact is linear; at most the one that drives `ALL` that any could."""
     steep = np.abs(stiffening * change) > 1e-8
     with np.errstate(divide="ignore", invalid="ignore"):
-        reduced = -np.log1p(-np.minimum(stiffening * change, NEARLY_ALL)) / stiffening
+        reduced = -np.log1p(-np.minimum(stiffening * change, ALL)) / stiffening
     return np.where(steep, reduced, change)

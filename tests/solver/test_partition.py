@@ -6,6 +6,7 @@ import pytest
 from mgehl.discretization.contact_law import BoundaryFilm, InterfaceConditions, UnifiedEquations
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
+from mgehl.solver.layers import by_reduced_pressure
 from mgehl.solver.partition import Changes, Partition
 
 THRESHOLD = 1e-3
@@ -167,6 +168,15 @@ class TestContinuousContact:
             pressed.status[4, 3:7], pressed.p[NODE] = CONTACT, pressed.P[NODE] + 0.1
             changed_by(bare.open_contact, pressed, released=released)
             assert np.count_nonzero(pressed.status[4, 4:7] == LUBRICATED) == released
+
+    @pytest.mark.parametrize("asked, opens", [(0.9, False), (1.1, True)])
+    def test_it_opens_at_once_where_no_pressure_drives_what_is_asked(
+        self, partition, pressed, asked, opens
+    ):
+        """`asked` is a part of what an infinite pressure would drive. A film waited at each node."""
+        pressed.p[NODE], stiffening = pressed.P[NODE] - 1.0, 20.0
+        pressed.p[NODE] += by_reduced_pressure(np.array(asked) / stiffening, stiffening)
+        changed_by(partition.open_contact, pressed, released=int(opens))
 
     def test_what_fluid_presses_under_is_lifted_and_not_torn_apart(self, partition, pressed):
         """It opened empty, was closed by the films beside it, and so on: a polymer was not found."""
