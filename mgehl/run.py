@@ -201,7 +201,8 @@ class _LoadedSolve:
     def _friction(self, problem, outcome, angle, steady=True):
         """The `FrictionResult` of surfaces that go at an `angle`, and its maps."""
         friction, maps = friction_result(problem, outcome.state, steady)
-        return with_moments(friction, arms(self.case.config, angle)), maps
+        is_asked = self.case.config.motion.slide_to_roll is not None
+        return with_moments(replace(friction, is_asked=is_asked), arms(self.case.config, angle)), maps
 
     def _compared(self, friction, result, loads, beside):
         """A `FrictionResult` with its band, and with the films that shear would not thin."""

@@ -39,6 +39,12 @@ def share_of(body, slide_to_roll):
     return {STILL: 0.0, MOVING: 2.0, BODY_1: 1.0 + slip, BODY_2: 1.0 - slip}[body]
 
 
+def number_of(body, slide_to_roll):
+    """The number of a surface's body: what stands still is on the slower one, what moves on the other."""
+    slower = 2 if slide_to_roll >= 0.0 else 1
+    return {STILL: slower, MOVING: 3 - slower, BODY_1: 1, BODY_2: 2}[body]
+
+
 LENGTHS = ("m", "mm", "um", "µm", "nm", "pm", "in", "uin")
 """Units that keys name."""
 

@@ -9,7 +9,7 @@ from mgehl.config_value import WrongUnitError, number, read_quantity, word
 from mgehl.errors import ConfigError
 from mgehl.kinds.choice import Choice, given
 from mgehl.kinds.own import naming
-from mgehl.kinds.surface_kinds import every_surface, share_of
+from mgehl.kinds.surface_kinds import every_surface, number_of, share_of
 from mgehl.model.course import SAMPLES, Recorded, Table, course_of
 from mgehl.model.frame import direction
 from mgehl.model.own_function import is_own
@@ -258,5 +258,7 @@ def scene_of(config, contact):
     load = course(key, contact.load if by_moes else config.value(key))
     speed = course("motion.speed", contact.speed if by_moes else config.motion.speed)
     slip, angle = config.motion.slip, course("motion.angle", config.motion.angle)
-    surfaces = tuple((surface, share_of(body, slip)) for _, surface, body in every_surface(config))
+    surfaces = tuple(
+        (surface, share_of(body, slip), number_of(body, slip)) for _, surface, body in every_surface(config)
+    )
     return Scene(contact, speed, load, surfaces, config.time.end, angle)

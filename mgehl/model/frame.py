@@ -107,6 +107,11 @@ class SurfaceInFrame:
         filtered = self.surface.filtered(wavelengths, *self._users_lines(x, y))
         return SurfaceInFrame(filtered, self.frame)
 
+    @property
+    def moving(self):
+        """Parts that move, as of a `Surface`."""
+        return tuple((body, SurfaceInFrame(part, self.frame)) for body, part in self.surface.moving)
+
     def _users_lines(self, x, y):
         return [np.sort(line) for line in self.frame.users_point(x, y)]
 

@@ -18,10 +18,16 @@ from mgehl.model.surface.surface import Surface, summed
 
 @dataclass(frozen=True)
 class Moved(Surface):
-    """A surface that has gone a way (x, y) in m from where it was."""
+    """A surface that has gone a way (x, y) in m from where it was, on the body of a number."""
 
     surface: Surface
     way: tuple
+    body: int = 1
+
+    @property
+    def moving(self):
+        """Itself."""
+        return ((self.body, self),)
 
     def height(self, x, y):
         """Height at x and y."""
@@ -75,7 +81,7 @@ class Scene:
     speed: Course
     load: Course
     surfaces: tuple
-    """(`Surface`, its body's speed over the mean one)."""
+    """(`Surface`, its body's speed over the mean one, that body's number)."""
     end: float
     angle: Course
     """Of the motion in degrees, from the user's +x towards his +y."""
@@ -93,7 +99,7 @@ class Scene:
     @property
     def moves(self):
         """Whether heights change with time."""
-        return any(share and self._varies(surface) for surface, share in self.surfaces)
+        return any(share and self._varies(surface) for surface, share, _ in self.surfaces)
 
     @property
     def most_asked(self):
@@ -150,7 +156,7 @@ class Scene:
         A body that is slower than the mean takes longer: before it has passed, a mean is one of the few
         heights that were there.
         """
-        shares = [abs(share) for surface, share in self.surfaces if share and self._varies(surface)]
+        shares = [abs(share) for surface, share, _ in self.surfaces if share and self._varies(surface)]
         there, (x, y) = self.contact.under(share), self.contact.motion
         if angles is not None:
             x, y = np.cos(np.radians(angles)), np.sin(np.radians(angles))
@@ -168,7 +174,8 @@ class Scene:
             return self.contact.surface
         x, y = path
         return summed(
-            Moved(surface, (share * x, share * y)) if share else surface for surface, share in self.surfaces
+            Moved(surface, (share * x, share * y), body) if share else surface
+            for surface, share, body in self.surfaces
         )
 
     def cells(self, way, mesh):
@@ -183,7 +190,7 @@ class Scene:
 
     def fastest(self, way, mesh):
         """Cells that count for the length of a step by a `way`."""
-        shares = [share for _, share in self.surfaces] if self.moves else []
+        shares = [share for _, share, _ in self.surfaces] if self.moves else []
         return self.most_cells(way, mesh) * cells_a_step(shares)
 
     def instant(self, contact, t):

@@ -39,7 +39,7 @@ class FrictionResult:
     film_coefficient: float
     solid_coefficient: float
     rolling_coefficient: float
-    """What drags each body against the motion, over the load: by the film in the domain."""
+    """What drags a body against the motion, mean of both, over the load: in the domain."""
     rolling_beyond: float
     """What drags up to a radius of curvature away between rigid bodies full of oil: in no force."""
     force_1_N: float
@@ -47,9 +47,9 @@ class FrictionResult:
     force_2_N: float
     """On body 2, of speed u (1 - S/2)."""
     rolling_N: float
-    """The part of both that is rolling's, against the motion."""
+    """The part that is rolling's, against the motion, mean of both."""
     power_loss_W: float
-    """Of sliding and rolling, of both bodies."""
+    """Of sliding and rolling, of both bodies, in the domain."""
     largest_shear_MPa: float
     temperatures: Temperatures | None = None
     """None where [heat] says nothing of the bodies, of a band of heat on a body at rest, and in time."""
@@ -74,6 +74,8 @@ class FrictionResult:
     """The minimum film then; None in older results, too."""
     thins: bool = False
     """Whether shear thins the film."""
+    is_asked: bool = True
+    """Whether a slide-to-roll ratio is given, be it 0."""
 
 
 STRONGEST = 300.0
@@ -98,6 +100,7 @@ def friction_result(problem, state, steady=True):
     rolled, sheared = (0.0, 0.0) if contact.is_at_rest else _beyond(problem, state)
     load = problem.load_share * contact.load
     dragged = total if slides > 0.0 else -total
+    (rolling_1, rolling_2), half = shear.rolling, 0.5 * slides
     sliding = friction.sliding_speed(speed)
     rise = rise_of(problem, state, stress) if steady and has_temperatures(contact) else None
     result = FrictionResult(
@@ -110,10 +113,10 @@ def friction_result(problem, state, steady=True):
         rolling_coefficient=shear.rolling_force / load,
         rolling_beyond=rolled / load,
         sliding_beyond=sheared / load,
-        force_1_N=-dragged - shear.rolling_force,
-        force_2_N=dragged - shear.rolling_force,
+        force_1_N=-dragged - rolling_1,
+        force_2_N=dragged - rolling_2,
         rolling_N=-shear.rolling_force,
-        power_loss_W=total * sliding + 2.0 * speed * shear.rolling_force,
+        power_loss_W=total * sliding + speed * ((1.0 + half) * rolling_1 + (1.0 - half) * rolling_2),
         largest_shear_MPa=1e-6 * problem.grid.max(stress),
         temperatures=rise and _temperatures(problem, state, rise),
         per_metre=contact.is_line,
@@ -187,17 +190,17 @@ def with_moments(friction, arms):
 
 
 def friction_lines(friction, verbose, at_a_spike=False):
-    """What resists, in words: of sliding surfaces, and `verbose` of rolling ones, too. `at_a_spike`: the
+    """What resists, in words, where it is asked for, and `verbose` always. `at_a_spike`: the
     largest pressure is the grid's, and so is what it lets the oil bear."""
-    if not friction or not (verbose or friction.slide_to_roll or friction.model != "newtonian"):
+    if not friction or not (verbose or friction.is_asked or friction.model != "newtonian"):
         return
     unit = "/m" if friction.per_metre else ""
     beyond = friction.rolling_beyond
-    more = f" (and {beyond:.2g} beyond the domain, were it flooded)" if beyond else ""
+    more = f" (and {beyond:.2g} beyond it, were it flooded)" if beyond else ""
     rolling = f"{friction.rolling_coefficient:.3g}"
     if friction.rolling_band:
         rolling = with_band(friction.rolling_coefficient, friction.rolling_band)
-    rolling = f"rolling takes {rolling} of the load on each body{more}"
+    rolling = f"rolling takes {rolling} of the load in the domain, mean of both bodies{more}"
     if not friction.slide_to_roll:
         yield f"no sliding friction: motion.slide_to_roll is 0, or not given; {rolling}"
         return

@@ -36,7 +36,7 @@ COLUMNS = {
     "squeezed_beyond": ("1", "part of the load on oil that is squeezed out beyond the domain"),
     "friction": ("1", "shear of film and solids over the load"),
     "largest_shear_MPa": ("MPa", "largest shear stress of film and solids"),
-    "rolling": ("1", "what drags each body against the motion, over the load"),
+    "rolling": ("1", "what drags a body against the motion, mean of both, over the load"),
     "contact_nodes": ("1", "nodes in contact"),
     "cavitated_nodes": ("1", "nodes of cavities"),
     "residual": ("1", "residual that the step leaves"),

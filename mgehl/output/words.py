@@ -140,7 +140,7 @@ def heating_words(reduction, is_thinned):
     if reduction > 0.0:
         percent = f"some {100.0 * (1.0 - reduction):.0f} %"
     if is_thinned:
-        return [f"shear in the inlet has taken {percent} (lubricant.heating)"]
+        return [f"shear in the inlet has taken {percent} by the formula (lubricant.heating)"]
     return [f"this is the isothermal film; shear in the inlet would take {percent}"]
 
 

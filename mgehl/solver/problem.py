@@ -65,6 +65,8 @@ class Problem:
         self.grid, self.contact, self.scheme = grid, contact, scheme
         self.flowing = contact
         """The contact with its oil as it is now: what flows is evaluated by it."""
+        self.surfaced = contact
+        """The contact with its surfaces as they are now, under the load of the beginning."""
         self.axes = axes_of(grid.mesh, scheme.motion)
         self.boundary = grid.boundary()
 
@@ -172,8 +174,7 @@ class Problem:
 
 
 class ContactProblem(Problem):
-    """Gap, residual and load balance of a loaded contact on one grid. `surfaced` is the contact with its
-    surfaces as they are now, under the load of the beginning."""
+    """Gap, residual and load balance of a loaded contact on one grid."""
 
     load_share = 1.0
     """Load of the instant, over that of the contact."""
@@ -186,7 +187,7 @@ class ContactProblem(Problem):
         self.deflection = deflection
         self.K00 = influence_coefficients(grid.mesh, contact.kernel, 0, 1)[0, 0]
         self._centre = weights_of_centre(grid.mesh)[grid.first : grid.last]
-        self.undeformed, self.surfaced = contact.undeformed_gap(grid.X, grid.Y), contact
+        self.undeformed = contact.undeformed_gap(grid.X, grid.Y)
         self._load_within = contact.load_within(grid.mesh)
 
     @property

@@ -23,8 +23,8 @@ class Shear:
     """Of contact, by the rest."""
     film_force: float
     solid_force: float
-    rolling_force: float
-    """On each body, against the motion."""
+    rolling: tuple
+    """On body 1 and on body 2, against the motion."""
 
     @property
     def stress(self):
@@ -36,13 +36,18 @@ class Shear:
         """By that stress."""
         return self.film_force + self.solid_force
 
+    @property
+    def rolling_force(self):
+        """By rolling, mean of both bodies."""
+        return 0.5 * sum(self.rolling)
+
 
 def shear_of(problem, state):
     """The `Shear` of a state (collective)."""
     film, solids = film_shear(problem, state), solid_shear(problem, state)
     cell = problem.contact.cell_area(problem.grid.mesh)
     forces = (cell * problem.grid.sum(each.sum()) for each in (film, solids))
-    return Shear(film, solids, *forces, rolling_force(problem, state))
+    return Shear(film, solids, *forces, rolling_of_bodies(problem, state))
 
 
 def outlets(problem):
@@ -150,21 +155,41 @@ def solid_shear(problem, state):
     return np.where(touching, coefficient * contact.pressure_scale * carried, 0.0)
 
 
+def rolling_of_bodies(problem, state):
+    """What rolling drags body 1 and body 2 by, in N, of a line contact in N/m (collective): the oil's
+    shear, and P on the slopes of heights s that a body moves. Of both that is int P x/R, as between smooth
+    bodies, whatever s is: half of int h dp/dx alone falls by half of int s dP/dx."""
+    film, grid, contact = rolling_force(problem, state), problem.grid, problem.contact
+    of_bodies = [film, film]
+    surface = problem.surfaced.surface
+    for body, moved in surface.moving if surface else ():
+        heights = moved.height(grid.X * contact.x_scale, grid.Y * contact.y_scale) / contact.film_scale
+        heights = grid.halo(np.ascontiguousarray(np.broadcast_to(heights, grid.shape)))
+        of_bodies[body - 1] += _driven(problem, heights, grid.halo(state.P))
+    return tuple(of_bodies)
+
+
 def rolling_force(problem, state):
     """Half of the integral of h dp/dx along the motion, in N, of a line contact in N/m (collective): so
-    much drags each body. Of a face it is its mean gap times its pressure difference: of a full film exactly
-    the load times how far its centre lies upstream, over 2 R."""
-    grid, contact, law = problem.grid, problem.contact, problem.scheme.contact_law
-    P, H, status = grid.halo(state.p), grid.halo(state.H), grid.halo_status(state.status)
-    gap, solid = law.flow_gap(H)[0], is_solid(status, law.closes_faces)
-    total = 0.0
+    much the oil's shear drags each body. Of a full film between smooth bodies it is exactly the load times
+    how far its centre lies upstream, over 2 R."""
+    grid, law = problem.grid, problem.scheme.contact_law
+    p, H, status = grid.halo(state.p), grid.halo(state.H), grid.halo_status(state.status)
+    return 0.5 * _driven(problem, law.flow_gap(H)[0], p, is_solid(status, law.closes_faces))
+
+
+def _driven(problem, gap, P, solid=None):
+    """Integral of a `gap` times dP/dx along the motion, in N, of a line contact in N/m (collective): of a
+    face its mean gap times its pressure difference. Ghosted; faces of what is `solid` are shut."""
+    grid, contact, total = problem.grid, problem.contact, 0.0
     for axis, part, scale in zip(
         problem.axes, contact.motion, (1.0 / contact.x_scale, 1.0 / contact.y_scale), strict=False
     ):
         mean = 0.5 * (axis.at(gap, 0) + axis.at(gap, 1))
-        rise = axis.at(P, 1) - axis.at(P, 0)
-        drag = np.where(open_faces(solid, axis), mean * rise, 0.0)
+        drag = mean * (axis.at(P, 1) - axis.at(P, 0))
+        if solid is not None:
+            drag = np.where(open_faces(solid, axis), drag, 0.0)
         # Along Y a face belongs to the line behind it: no two ranks count it.
         total += part * scale / axis.cell * float((drag if axis.number else drag[: len(own(P))]).sum())
     unit = contact.cell_area(grid.mesh) * contact.film_scale * contact.pressure_scale
-    return 0.5 * problem.sense * unit * grid.sum(total)
+    return problem.sense * unit * grid.sum(total)

@@ -19,6 +19,8 @@ from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import BOUNDARY, CAVITATED, CONTACT, LUBRICATED
 from mgehl.model.hertz import hertz_pressure
 from mgehl.model.rheology import Eyring, Friction, Limiting
+from mgehl.model.scene import Moved
+from mgehl.model.surface.waviness import Waviness
 from mgehl.solver.problem import ContactProblem, Problem, State
 from mgehl.solver.shear import film_shear, rolling_force, shear_of, solid_shear
 
@@ -134,9 +136,11 @@ def test_bodies_that_overlap_resist_as_solids(paper_contact, make_problem):
     assert np.count_nonzero(stress) == 1
 
 
-def test_rolling_of_a_full_film_is_the_load_upstream_of_the_centre(paper_contact, make_hierarchy):
-    """int h dp/dx = -int p dh/dx, and int p d(K p)/dx = 0: what is left is int p x/R, node by node."""
-    contact = paper_contact(SPEED)
+@pytest.mark.parametrize("waves", [None, Moved(Waviness(50e-9, 80e-6, 120e-6), (17e-6, 0.0), body=2)])
+def test_rolling_of_a_full_film_is_the_load_upstream_of_the_centre(paper_contact, make_hierarchy, waves):
+    """int h dp/dx = -int p dh/dx, and int p d(K p)/dx = 0: what is left is int p x/R, node by node. Heights
+    that move take no more of both bodies: the film's part alone was less by half of int s dp/dx."""
+    contact = paper_contact(SPEED, surface=waves)
     hierarchy = make_hierarchy(contact, 65)
     grid = hierarchy.grids[-1]
     problem = ContactProblem(grid, hierarchy.deflections[-1], contact, Scheme())
@@ -144,7 +148,10 @@ def test_rolling_of_a_full_film_is_the_load_upstream_of_the_centre(paper_contact
     state = problem.state(P, 0.5, np.full(grid.shape, LUBRICATED))
     moment = grid.mesh.dX * grid.mesh.dY * float((state.P * grid.X).sum()) * contact.hertz.p_h
     exact = -0.5 * moment * contact.hertz.a**3 / contact.radius_x
-    assert rolling_force(problem, state) == pytest.approx(exact, rel=1e-11)
+    found = shear_of(problem, state)
+    assert found.rolling_force == pytest.approx(exact, rel=1e-11)
+    assert found.rolling[0] == rolling_force(problem, state)
+    assert (found.rolling[0] == pytest.approx(exact, rel=1e-11)) == (waves is None)
 
 
 def film_of(speed, **changes):

@@ -41,6 +41,11 @@ class Surface:
         """Whether heights change along a direction, parts along x and y of a unit vector."""
         return True
 
+    @property
+    def moving(self):
+        """(Number of its body, the part) of each part that moves."""
+        return ()
+
 
 @dataclass(frozen=True)
 class Sum(Surface):
@@ -72,6 +77,11 @@ class Sum(Surface):
     def varies_along(self, direction):
         """Whether a part does."""
         return any(part.varies_along(direction) for part in self.parts)
+
+    @property
+    def moving(self):
+        """Those of all parts."""
+        return tuple(each for part in self.parts for each in part.moving)
 
 
 @dataclass(frozen=True)
