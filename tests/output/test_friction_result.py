@@ -19,14 +19,14 @@ MESH = Mesh(65, 65, (-40.0, 40.0), (-40.0, 40.0))
 
 @pytest.fixture
 def found(paper_contact, monkeypatch):
-    """Of the paper's ball at 1 m/s: 40 N of film, 8 N of solids, .4 N of rolling."""
+    """Of the paper's ball at 1 m/s: 40 N of film, 8 N of solids, .5 and .3 N of rolling."""
 
     def make(slide_to_roll):
         contact = paper_contact(friction=Friction(slide_to_roll=slide_to_roll))
         grid = SimpleNamespace(max=float, mesh=MESH)
         problem = SimpleNamespace(contact=contact, grid=grid, load_share=1.0, sense=1.0)
         forces = (40.0, 8.0) if slide_to_roll else (0.0, 0.0)
-        shear = Shear(1e6, 2e6, *forces, 0.4)
+        shear = Shear(1e6, 2e6, *forces, (0.5, 0.3))
         monkeypatch.setattr(module, "shear_of", lambda *_: shear)
         monkeypatch.setattr(module, "flows_out_whole", lambda *_: True)
         return friction_result(problem, None)[0]
