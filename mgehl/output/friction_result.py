@@ -204,6 +204,11 @@ def friction_lines(friction, verbose, at_a_spike=False):
     if not friction.slide_to_roll:
         yield f"no sliding friction: motion.slide_to_roll is 0, or not given; {rolling}"
         return
+    if is_out_of_range(friction):
+        drag = f"{friction.model}: the film would drag by {friction.film_coefficient:.2g} times the load"
+        yield f"friction {coefficient_words(friction)} ({drag}); {rolling}"
+        yield from strength_lines(friction.largest_shear_MPa)
+        return
     sheared, more = friction.sliding_beyond, ""
     if sheared > TOLD * friction.coefficient:
         more = f" (and {sheared:.2g} beyond the domain, were it flooded)"
@@ -224,9 +229,16 @@ def friction_lines(friction, verbose, at_a_spike=False):
 
 def coefficient_words(friction):
     """The coefficient with its band."""
+    if is_out_of_range(friction):
+        return "out of range"
     if friction.coefficient_band:
         return with_band(friction.coefficient, friction.coefficient_band)
     return f"{friction.coefficient:.5f}"
+
+
+def is_out_of_range(friction):
+    """Whether the law lets the film drag by more than the load and bear more than oils do."""
+    return friction.film_coefficient > 1.0 and friction.largest_shear_MPa > STRONGEST
 
 
 def strength_lines(shear_MPa):

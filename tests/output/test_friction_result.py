@@ -68,6 +68,8 @@ def test_the_band_of_the_load_on_solids_is_friction_s(found):
     assert result.coefficient_band == pytest.approx(0.002) and not result.is_the_grids
     (line,) = friction_lines(result, verbose=False)
     assert line.startswith("friction 0.060 ± 0.002 (newtonian): film 0.05000, solids 0.01000; rolling")
+    line, _ = friction_lines(replace(result, film_coefficient=2e7, largest_shear_MPa=4e6), verbose=False)
+    assert line.startswith("friction out of range (newtonian: the film would drag by 2e+07 times the load)")
 
 
 def test_where_there_is_no_band_at_all_friction_is_the_grid_s_too(found):
