@@ -213,6 +213,11 @@ def _bearing(bodies, rotation):
     element, race = (_round(body) for body in bodies)
     if bodies[0].conformity is not None or (element or 0.0) < 0.0:  # it is the ring
         element, race = race, element
+    elif race is not None and 0.0 < race < (element or 0.0):
+        raise ConfigError(
+            "motion.ring_rotation: body_1 is the ball or roller, but larger than body_2, the ring: "
+            "exchange them"
+        )
     if element is None or race is None or element <= 0.0 or abs(race) == inf:
         raise ConfigError(
             "motion.ring_rotation: needs diameter or radius_x of a ball or roller, and of the raceway "

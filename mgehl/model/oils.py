@@ -91,17 +91,20 @@ OILS = {
 }  # fmt: skip
 """By their names; compared with friction at 1 GPa and 60 degrees C, 2 to 16 m/s."""
 
-WALTHER = 0.7
-"""In cSt, in log10(log10(nu + 0.7)) = A - B log10(T)  [ASTM D341, above 2 cSt]."""
-
 
 def walther(at_40, at_100, T):
     """Kinematic viscosity at `T` of an oil that has `at_40` and `at_100` degrees C, all in m2/s. The
-    equation of Walther [ASTM D341]."""
-    cold, warm = (log10(log10(1e6 * nu + WALTHER)) for nu in (at_40, at_100))
+    equation of Walther, log10(log10(Z)) = A - B log10(T), with the terms of thin oils [ASTM D341]."""
+    cold, warm = (log10(log10(_Z(1e6 * nu))) for nu in (at_40, at_100))
     T_40, T_100 = log10(40.0 + CELSIUS), log10(100.0 + CELSIUS)
     slope = (cold - warm) / (T_100 - T_40)
-    return 1e-6 * (10.0**10.0 ** (cold - slope * (log10(T) - T_40)) - WALTHER)
+    z = 10.0**10.0 ** (cold - slope * (log10(T) - T_40)) - 0.7
+    return 1e-6 * (z - exp(-0.7487 - 3.295 * z + 0.6119 * z**2 - 0.3193 * z**3))
+
+
+def _Z(nu):
+    """Of a kinematic viscosity in cSt, from 0.21 on; from 2 on nu + 0.7."""
+    return nu + 0.7 + exp(-1.47 - 1.84 * nu - 0.51 * nu**2)
 
 
 def thinning(viscosity, T):

@@ -140,7 +140,7 @@ def _temperatures(problem, state, rise):
     grid = problem.grid
     largest = [grid.max(each) for each in (rise.first, rise.second)]
     film = np.where(is_fluid(state.status), rise.film, 0.0)
-    carried = np.where(is_fluid(state.status), state.p, 0.0)
+    carried = np.where(is_fluid(state.status), np.maximum(state.p, 0.0), 0.0)
     by_pressure = grid.sum((carried * film).sum()) / max(grid.sum(carried.sum()), TINY)
     return Temperatures(*largest, by_pressure, grid.max(film))
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from mgehl.discretization.status import CONTACT
 from mgehl.solver.inequality import bend_of_a_cell
-from mgehl.solver.shear import coefficient, friction_difference, rolling_force
+from mgehl.solver.shear import coefficient, friction_difference, rolling_of_bodies
 
 NARROW = 0.025
 """What the largest pressure may be larger between nodes, over itself, from which on it is a spike of three
@@ -70,7 +70,7 @@ class GridGap:
     friction_apart: float = 0.0
     """Sum of the sizes of the shear's differences from the finer grid, over the load."""
     rolling: float | None = None
-    """What drags each body against the motion, over the load; None in older results."""
+    """What drags a body against the motion, mean of both, over the load; None in older results."""
 
 
 def within_hertz(mesh, reach=1.0):
@@ -138,5 +138,5 @@ def grid_gap(problem, state, settled, finer=None):
         problem.grid.mesh.nx, nm * mean, nm * loaded, carried.contact, settled,
         max_pressure_GPa=GPa * carried.largest, pressure_crest_GPa=GPa * carried.crest,
         solid_load_fraction=carried.solids, friction=coefficient(problem, state),
-        rolling=rolling_force(problem, state) / problem.contact.load, **apart,
+        rolling=0.5 * sum(rolling_of_bodies(problem, state)) / problem.contact.load, **apart,
     )  # fmt: skip

@@ -157,16 +157,27 @@ def solid_shear(problem, state):
 
 def rolling_of_bodies(problem, state):
     """What rolling drags body 1 and body 2 by, in N, of a line contact in N/m (collective): the oil's
-    shear, and P on the slopes of heights s that a body moves. Of both that is int P x/R, as between smooth
-    bodies, whatever s is: half of int h dp/dx alone falls by half of int s dP/dx."""
-    film, grid, contact = rolling_force(problem, state), problem.grid, problem.contact
-    of_bodies = [film, film]
-    surface = problem.surfaced.surface
-    for body, moved in surface.moving if surface else ():
-        heights = moved.height(grid.X * contact.x_scale, grid.Y * contact.y_scale) / contact.film_scale
-        heights = grid.halo(np.ascontiguousarray(np.broadcast_to(heights, grid.shape)))
-        of_bodies[body - 1] += _driven(problem, heights, grid.halo(state.P))
+    shear, and P on the slopes of its heights s. Of both that is -int P x/R, as between smooth bodies,
+    whatever s is: half of int h dp/dx alone falls by half of int s dP/dx. Heights that stand still between
+    bodies that both move are neither's."""
+    film, surface = rolling_force(problem, state), problem.surfaced.surface
+    of_bodies, slip = [film, film], problem.contact.friction.slide_to_roll
+    if surface is None:
+        return tuple(of_bodies)
+    for body, moved in surface.moving:
+        of_bodies[body - 1] += _on_slopes(problem, state, moved)
+    if abs(slip) == 2.0:
+        moving = sum(of_bodies) - 2.0 * film
+        of_bodies[1 if slip > 0.0 else 0] += _on_slopes(problem, state, surface) - moving
     return tuple(of_bodies)
+
+
+def _on_slopes(problem, state, surface):
+    """What P on the slopes of a `Surface` drags its body by (collective)."""
+    grid, contact = problem.grid, problem.contact
+    heights = surface.height(grid.X * contact.x_scale, grid.Y * contact.y_scale) / contact.film_scale
+    heights = grid.halo(np.ascontiguousarray(np.broadcast_to(heights, grid.shape)))
+    return _driven(problem, heights, grid.halo(state.P))
 
 
 def rolling_force(problem, state):

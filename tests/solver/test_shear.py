@@ -31,6 +31,7 @@ SLIDING = 0.1
 MU_EYRING, MU_LIMITED = 0.080229, 0.049921
 """Of the paper's contact, by the integrals above."""
 
+WAVES = Waviness(50e-9, 80e-6, 120e-6)
 CLOSING = Scheme()
 """Contact closes its faces."""
 
@@ -136,10 +137,10 @@ def test_bodies_that_overlap_resist_as_solids(paper_contact, make_problem):
     assert np.count_nonzero(stress) == 1
 
 
-@pytest.mark.parametrize("waves", [None, Moved(Waviness(50e-9, 80e-6, 120e-6), (17e-6, 0.0), body=2)])
-def test_rolling_of_a_full_film_is_the_load_upstream_of_the_centre(paper_contact, make_hierarchy, waves):
+@pytest.mark.parametrize("waves, slip", [(None, 0), (Moved(WAVES, (2e-5, 0.0), 2), 0.3), (WAVES, 2)])
+def test_rolling_of_a_full_film_is_the_load_upstream(paper_contact, make_hierarchy, waves, slip):
     """int h dp/dx = -int p dh/dx, int p d(K p)/dx = 0: int p x/R is left. Heights take no more of both."""
-    contact = paper_contact(SPEED, surface=waves)
+    contact = paper_contact(SPEED, surface=waves, friction=Friction(slide_to_roll=slip))
     hierarchy = make_hierarchy(contact, 65)
     grid = hierarchy.grids[-1]
     problem = ContactProblem(grid, hierarchy.deflections[-1], contact, Scheme())
