@@ -5,9 +5,10 @@ import numpy as np
 from mgehl.discretization.axes import own
 from mgehl.discretization.status import CONTACT
 
-ALL = 1.0 - np.finfo(float).eps
-"""Part of what an infinite pressure would drive under contact that a step may ask for: no pressure drives
-more, and contact opens. With 0.999 a film waits at each node, and takes up to twice the work."""
+ALL, NEARLY_ALL = 1.0 - np.finfo(float).eps, 0.999
+"""Parts of what an infinite pressure would drive under contact that a step may ask for. No pressure drives
+more: bare contact opens at once, where by the second a film waits at each node and takes up to twice the
+work. On lines a film has no way around: there the second finds more."""
 
 
 class FluidInLayers:
@@ -21,20 +22,23 @@ class FluidInLayers:
         """Take what the flow balance under contact asks of p out of the right-hand side, in place."""
         self._eliminated.feed(F, -self._p)
 
-    def follow(self, state, c, dH, length):
-        """Move p along a part of the step: -c, (lines, nx), by which the gap falls by `dH`."""
+    def follow(self, state, c, dH, length, at_once):
+        """Move p along a part of the step: -c, (lines, nx), by which the gap falls by `dH`; contact
+        opens `at_once` that is asked for more than any p drives."""
         grid, eliminated, here = self._problem.grid, self._eliminated, self._eliminated.here
         outside = np.where(state.status == CONTACT, 0.0, c)
         moved = eliminated.inflow(grid.halo(outside), grid.halo(dH), 0.0)
         dp = eliminated.own(self._p - eliminated.solve(moved))
         stiffening = -own(self._fluid.deps_dP)[here] / own(self._fluid.eps)[here]
-        state.p[here] += by_reduced_pressure(-length * dp, stiffening)
+        state.p[here] += by_reduced_pressure(-length * dp, stiffening, at_once)
 
 
-def by_reduced_pressure(change, stiffening):
+def by_reduced_pressure(change, stiffening, at_once):
     """The change of a pressure whose fluid stiffens by e^(`stiffening` p), by that of its reduced pressure,
-    in which the flow under contact is linear; at most the one that drives `ALL` that any could."""
+    in which the flow under contact is linear; at most the one that drives nearly all that any could, or all
+    `at_once`."""
     steep = np.abs(stiffening * change) > 1e-8
+    most = ALL if at_once else NEARLY_ALL
     with np.errstate(divide="ignore", invalid="ignore"):
-        reduced = -np.log1p(-np.minimum(stiffening * change, ALL)) / stiffening
+        reduced = -np.log1p(-np.minimum(stiffening * change, most)) / stiffening
     return np.where(steep, reduced, change)

@@ -179,7 +179,7 @@ class Newton(PythonSnes):
         where = problem, self._partition, self._evaluation, state
         length, H, dH = step_length(*where, dP, dH0, self._settings, self._in_turn)
         if self._layers:
-            self._layers.follow(state, c, dH, length)
+            self._layers.follow(state, c, dH, length, self._settings.passes_on)
         state.P -= length * dP
         state.H0 -= length * dH0
         state.filling -= length * (c - asked)

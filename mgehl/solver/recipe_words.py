@@ -91,7 +91,7 @@ def _steps(newton):
     end = f"{newton.idle_steps} in vain" if newton.idle_steps < newton.max_steps else f"{newton.max_steps}"
     falls = "; pressures fall as the oil flows after one in vain" if newton.by_reduced_pressure else ""
     few = "; few nodes that hold up all others are solved by themselves" if newton.eliminates else ""
-    few += "; contact opens with all contact behind it" if newton.passes_on else ""
+    few += "; contact opens at once, with all contact behind it" if newton.passes_on else ""
     return f"{kind}; one changes at most {change}{falls}{few}; {end} end it"
 
 

@@ -51,7 +51,7 @@ class NewtonSettings:
     eliminates: bool = False
     """Whether few nodes that make up most of the residual are solved by themselves between two steps."""
     passes_on: bool = False
-    """Whether contact opens with all contact behind it (`Partition`)."""
+    """Whether contact opens with all contact behind it (`Partition`), and at once (`layers`)."""
     in_time: bool = False
     """Whether the state is one of many, near the one before: it is solved no further than is asked."""
 

@@ -103,7 +103,7 @@ class Window(Problem):
         new.filling -= length * (c - dP)
         fluid = at.evaluation.fluid
         stiffening = -own(fluid.deps_dP)[contact] / own(fluid.eps)[contact]
-        new.p[contact] += by_reduced_pressure(-length * dp, stiffening)
+        new.p[contact] += by_reduced_pressure(-length * dp, stiffening, settings.passes_on)
         self._partition.cut_tension(new, changes, in_turn)
         self._hold(new, old)
         new.H = old.H + self._deflection(new.P - old.P)

@@ -170,12 +170,10 @@ class TestContinuousContact:
             assert np.count_nonzero(pressed.status[4, 4:7] == LUBRICATED) == released
 
     @pytest.mark.parametrize("asked, opens", [(0.9, False), (1.1, True)])
-    def test_it_opens_at_once_where_no_pressure_drives_what_is_asked(
-        self, partition, pressed, asked, opens
-    ):
+    def test_it_opens_at_once_where_no_pressure_drives_that(self, partition, pressed, asked, opens):
         """`asked` is a part of what an infinite pressure would drive. A film waited at each node."""
         pressed.p[NODE], stiffening = pressed.P[NODE] - 1.0, 20.0
-        pressed.p[NODE] += by_reduced_pressure(np.array(asked) / stiffening, stiffening)
+        pressed.p[NODE] += by_reduced_pressure(np.array(asked) / stiffening, stiffening, at_once=True)
         changed_by(partition.open_contact, pressed, released=int(opens))
 
     def test_what_fluid_presses_under_is_lifted_and_not_torn_apart(self, partition, pressed):
