@@ -34,7 +34,7 @@ from mgehl.output.result import Making, Work
 from mgehl.output.solution import Solution, on_every_rank
 from mgehl.output.summary import summarise, summarise_in_time
 from mgehl.output.surroundings import versions
-from mgehl.output.time_error import time_error, with_bands
+from mgehl.output.time_error import from_a_start, time_error, with_bands
 from mgehl.output.users_axes import solution_of
 from mgehl.run_bearing import solve_bearing
 from mgehl.run_dry import DrySolve
@@ -243,7 +243,8 @@ class _LoadedSolve:
         """The `TimeError` of a run in time by its `Task`."""
         beside = partial(self._marched_beside, task)
         asked = self.parts.settings.error
-        return time_error(result, problem, self.case.scene, asked, self.monitor, beside)
+        error = time_error(result, problem, self.case.scene, asked, self.monitor, beside)
+        return from_a_start(error, self.start and self.start.result, result.time.passages)
 
     def _marched_beside(self, task):
         """Rows of the same run on the next coarser grid; and why there are none to compare with, or ""."""

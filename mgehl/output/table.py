@@ -108,7 +108,8 @@ def _row(directory, keys):
                 half_width = told_at(result, BANDS[path])
                 row[_of_band(name)] = "" if half_width is None else f"{half_width:.4g}"
     if told.value("contact.kind") == "line":
-        row.pop("approach um", None)  # it counts from a distance of a: loads cannot be compared
+        for name in ("approach um", "approach ± um"):  # from a distance of a: loads cannot be compared
+            row.pop(name, None)
     if told.value("motion.slide_to_roll") is None:
         row |= {name: "" for name in SLIDING if name in row}
     if told.lambda_ratio is not None:

@@ -10,7 +10,9 @@ from dataclasses import replace
 import numpy as np
 
 from mgehl.output import film_error, gap_error
+from mgehl.output.files import plain_result
 from mgehl.output.gap_error import half_width, share_half_width, unless_wider
+from mgehl.output.quantities import QUANTITIES, told_at
 from mgehl.output.result import TimeError
 from mgehl.output.series import MEANS, ROUNDING, has_whole, passed
 from mgehl.solver.gaps import NARROW
@@ -49,6 +51,26 @@ def time_error(result, problem, scene, asked, progress, beside):
     if result.resolution.is_the_grids and not problem.contact.is_mixed:
         found = _without(OF_FILMS, found)
     return replace(found, convolutions=progress.convolutions - before)
+
+
+def from_a_start(error, start, gone):
+    """The `TimeError` of a run that begins with the film of a `start`, a `Result`, or with none, and has
+    gone so many passages. The coarser grid begins with the same film: until the first passage what may be
+    off there may be off here, and what has no band there has none."""
+    if start is None or gone >= 1.0:
+        return error
+    told = plain_result(start)
+    central, of_start = told_at(told, QUANTITIES["central_film_nm"].band), {}
+    for name in MEANS:
+        missing = {"mean_gap_nm": central} | dict.fromkeys(SHARES, 0.0)  # of smooth bodies
+        of_start[name] = told_at(told, QUANTITIES[name].band) or missing.get(name)
+
+    def added(bands):
+        return {name: half + of_start[name] for name, half in bands.items() if of_start[name] is not None}
+
+    its = "the run that it starts from"
+    how = f"{error.how}; with those of {its}" if central else f"{its} has none"
+    return replace(error, how=how, whole=added(error.whole), at_the_end=added(error.at_the_end))
 
 
 def _without(columns, error):

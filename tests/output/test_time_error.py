@@ -1,5 +1,7 @@
 """The bands about a run in time, by the next coarser grid in steps of two."""
 
+from dataclasses import make_dataclass
+
 import numpy as np
 import pytest
 from mpi4py import MPI
@@ -8,7 +10,7 @@ import mgehl
 from mgehl.errors import Stopped
 from mgehl.kinds import checked_case
 from mgehl.output.series import MEANS
-from mgehl.output.time_error import from_rows
+from mgehl.output.time_error import from_a_start, from_rows
 from mgehl.run import Watch, enter, run
 
 UNIT = 1.52e-3
@@ -44,6 +46,15 @@ def rows(value, coarse=1, steps=8):
 def test_what_grids_tell_too_differently_has_no_band():
     found = from_rows(rows(lambda k: 100.0), rows(lambda k: 160.0, coarse=2), scene())
     assert found.at_the_end == {}
+
+
+def test_a_start_s_band_is_added_until_a_passage_has_gone():
+    """The coarser grid begins with the same film: a squeezed film had 0.006 nm for 1.4."""
+    found = from_rows(rows(lambda k: 100.0), rows(lambda k: 101.0, coarse=2), scene())
+    start = make_dataclass("Start", ["error"])({"central_nm": 1.4, "minimum_nm": None})
+    there = from_a_start(found, start, 0.5).at_the_end
+    assert there["central_film_nm"] == there["mean_gap_nm"] == found.at_the_end["central_film_nm"] + 1.4
+    assert "minimum_film_nm" not in there and from_a_start(found, start, 1.0) is found
 
 
 def test_the_mean_load_on_contact_that_opens_has_no_band():

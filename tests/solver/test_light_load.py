@@ -22,8 +22,7 @@ def central_film():
 
 
 def test_three_domains_have_one_film(central_film):
-    """A quarter, an eighth and a sixteenth of the load is carried beyond, and the film answers to its
-    square."""
+    """A quarter, an eighth, a sixteenth of the load is carried beyond; the film answers to its square."""
     small, larger, largest = (central_film(end) for end in (16.0, 32.0, 64.0))
     assert small == pytest.approx(largest, rel=0.004)
     assert larger == pytest.approx(largest, rel=0.002)
