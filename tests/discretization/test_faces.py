@@ -204,7 +204,7 @@ def test_motion_turns_the_couette_flow_round_and_nothing_else(couette, mixed):
 @every_scheme
 @pytest.mark.parametrize("velocity, behind", [(1.0, W), (-1.0, E)])
 def test_half_a_cavity_passes_half_the_couette_flow(velocity, behind, couette, along):
-    """Through the face ahead, and its derivative by the filling is the full flow; pressures drive as ever."""
+    """Through the face ahead; its derivative by the filling is the full flow; pressures drive as ever."""
     row, scheme = Row(along), Scheme(couette)
     gap, P = [12.0, 11.0, 13.0, 12.0, 10.0, 11.0], [2.0, 1.0, 0.0, 0.0, 3.0, 1.0]
     torn = np.array([False, False, True, True, False, False])
