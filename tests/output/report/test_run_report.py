@@ -178,7 +178,7 @@ def test_what_resists_and_what_heat_takes_are_in_the_words_of_the_terminal(film_
         assert f"{line[0].upper()}{line[1:]}." in page.text
     assert page.highlights["friction coefficient"] == "0.12500"
     forces = page.tables["Forces on the bodies, positive along the motion"]
-    told = {"on body 1": "-12.5", "on body 2": "7.5", "of each by rolling": "-2.5"}
+    told = {"on body 1": "-12.5", "on body 2": "7.5", "by rolling, mean of both": "-2.5"}
     assert forces == [[name, value, "N"] for name, value in told.items()]
 
 
