@@ -40,9 +40,10 @@ def share_of(body, slide_to_roll):
 
 
 def number_of(body, slide_to_roll):
-    """The number of a surface's body: what stands still is on the slower one, what moves on the other."""
-    slower = 2 if slide_to_roll >= 0.0 else 1
-    return {STILL: slower, MOVING: 3 - slower, BODY_1: 1, BODY_2: 2}[body]
+    """The number of a surface's body: what moves at twice the mean speed is on the faster one, what stands
+    still on the other."""
+    faster = 1 if slide_to_roll >= 0.0 else 2
+    return {STILL: 3 - faster, MOVING: faster, BODY_1: 1, BODY_2: 2}[body]
 
 
 LENGTHS = ("m", "mm", "um", "µm", "nm", "pm", "in", "uin")

@@ -54,9 +54,9 @@ def time_error(result, problem, scene, asked, progress, beside):
 
 
 def from_a_start(error, start, gone):
-    """The `TimeError` of a run that begins with the film of a `start`, a `Result`, or with none, and has
-    gone so many passages. The coarser grid begins with the same film: until the first passage what may be
-    off there may be off here, and what has no band there has none."""
+    """The `TimeError` of a run that begins with the film of a `start`, a `Result` or None, and has gone so
+    many passages. The coarser grid begins with the same film: until the first passage has gone, the start's
+    bands are added. What has no band in the start has none."""
     if start is None or gone >= 1.0:
         return error
     told = plain_result(start)
@@ -68,8 +68,8 @@ def from_a_start(error, start, gone):
     def added(bands):
         return {name: half + of_start[name] for name, half in bands.items() if of_start[name] is not None}
 
-    its = "the run that it starts from"
-    how = f"{error.how}; with those of {its}" if central else f"{its} has none"
+    begun = "the run that it starts from"
+    how = f"{error.how}; with those of {begun}" if central else f"{begun} has none"
     return replace(error, how=how, whole=added(error.whole), at_the_end=added(error.at_the_end))
 
 

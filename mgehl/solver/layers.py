@@ -7,8 +7,8 @@ from mgehl.discretization.status import CONTACT
 
 ALL, NEARLY_ALL = 1.0 - np.finfo(float).eps, 0.999
 """Parts of what an infinite pressure would drive under contact that a step may ask for. No pressure drives
-more: bare contact opens at once, where by the second a film waits at each node and takes up to twice the
-work. On lines a film has no way around: there the second finds more."""
+more than all: bare contact that is asked for it opens at once. With nearly all a film waits at each node,
+and takes up to twice the work; but on lines more contacts are found."""
 
 
 class FluidInLayers:
