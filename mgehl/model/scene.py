@@ -164,13 +164,13 @@ class Scene:
 
     def at(self, path):
         """The contact, in the axes in which it is solved, when the mean surface has gone a `path`."""
-        if not self.moves or not np.any(path):
+        if not self.moves:
             return self.framed
         return replace(self.contact, surface=self.surface_at(path)).in_frame(self.contact.frame)
 
     def surface_at(self, path):
         """The `Surface` then, in the user's axes; None of smooth bodies."""
-        if not self.moves or not np.any(path):
+        if not self.moves:
             return self.contact.surface
         x, y = path
         return summed(

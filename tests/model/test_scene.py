@@ -24,6 +24,7 @@ def test_a_passage_is_that_of_the_slowest_heights(body, slide_to_roll, lengths):
     """Those that go against the motion pass, too; those that rest never do."""
     found = scene(WAVES | {"surface.body": body, "motion.slide_to_roll": slide_to_roll})
     assert found.passage() == pytest.approx(lengths * 2.0 * found.framed.x_scale)
+    assert bool(found.surface_at((0.0, 0.0)).moving) == (lengths != 1.0)  # back where they were, too
 
 
 def test_a_heavier_load_takes_longer_to_pass():
