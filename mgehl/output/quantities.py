@@ -115,7 +115,7 @@ def with_means(result):
     for name, mean in means.items():
         found = QUANTITIES[name]
         _put_at(result, found.path, mean["value"])
-        _put_at(result, found.band, of_a_mean(mean["band"], bands.get(name)))
+        _put_at(result, found.band, of_a_mean(mean["between_passages"], bands.get(name)))
         if name in ALSO_AT:
             _put_at(result, ALSO_AT[name], mean["value"])
     return result

@@ -77,11 +77,11 @@ class HertzResult:
 
 @dataclass(frozen=True)
 class Mean:
-    """A mean over the last passage; `band`, its difference from the one before, is None where there was but
-    one. It tells nothing of grid and steps: `TimeError` does."""
+    """A mean over the last passage, and its difference from that over the one before, None where there was
+    but one. That tells nothing of grid and steps: `TimeError` does."""
 
     value: float
-    band: float | None
+    between_passages: float | None = None
 
 
 @dataclass(frozen=True)

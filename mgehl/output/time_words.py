@@ -49,7 +49,7 @@ def _of_passage(time):
     and passages."""
     bands = time.error.means if time.error else {}
     return {name: mean.value for name, mean in time.means.items()}, {
-        name: of_a_mean(mean.band, bands.get(name)) for name, mean in time.means.items()
+        name: of_a_mean(mean.between_passages, bands.get(name)) for name, mean in time.means.items()
     }
 
 

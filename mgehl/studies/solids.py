@@ -79,7 +79,8 @@ def _mean(result, name):
     """A mean over passages and its band as text; of surfaces at rest the number itself."""
     if result.time:
         mean = result.time.means.get(name)
-        return (mean.value, "" if mean.band is None else f"{mean.band:.2g}") if mean else (np.nan, "")
+        apart = mean and mean.between_passages
+        return (mean.value, "" if apart is None else f"{apart:.2g}") if mean else (np.nan, "")
     return number_of(name, result), ""
 
 

@@ -76,7 +76,7 @@ def test_runs_of_a_bearing_have_the_speed_that_follows_and_their_lambda(tmp_path
 
 def test_a_run_in_time_is_told_by_its_means():
     """In the tables was its last instant, without a word: a wave in the contact, or beside it."""
-    means = {name: {"value": float(i), "band": 0.1 * i} for i, name in enumerate(MEANS)}
+    means = {name: {"value": float(i), "between_passages": 0.1 * i} for i, name in enumerate(MEANS)}
     instant = {"central_film_nm": 99.0, "moes_film": {"central": 3.5}, "mixed": None}
     instant["error"] = {"reason": "of an instant"}
     error = {"means": {"friction": 0.2}}
