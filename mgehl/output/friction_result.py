@@ -204,7 +204,7 @@ def friction_lines(friction, verbose, at_a_spike=False):
     if not friction.slide_to_roll:
         yield f"no sliding friction: motion.slide_to_roll is 0, or not given; {rolling}"
         return
-    if is_out_of_range(friction):
+    if coefficient_words(friction) == OUT_OF_RANGE:
         drag = f"{friction.model}: the film would drag by {friction.film_coefficient:.2g} times the load"
         yield f"friction {coefficient_words(friction)} ({drag}); {rolling}"
         yield from strength_lines(friction.largest_shear_MPa)
@@ -229,16 +229,20 @@ def friction_lines(friction, verbose, at_a_spike=False):
 
 def coefficient_words(friction):
     """The coefficient with its band."""
-    if is_out_of_range(friction):
-        return "out of range"
+    if is_out_of_range(friction.film_coefficient, friction.largest_shear_MPa):
+        return OUT_OF_RANGE
     if friction.coefficient_band:
         return with_band(friction.coefficient, friction.coefficient_band)
     return f"{friction.coefficient:.5f}"
 
 
-def is_out_of_range(friction):
-    """Whether the law lets the film drag by more than the load and bear more than oils do."""
-    return friction.film_coefficient > 1.0 and friction.largest_shear_MPa > STRONGEST
+OUT_OF_RANGE = "out of range"
+"""Instead of a coefficient of a film that drags by more than the load and bears more than oils do."""
+
+
+def is_out_of_range(coefficient, shear_MPa):
+    """Whether it is, by a largest stress, None where nobody knows."""
+    return coefficient > 1.0 and (shear_MPa or 0.0) > STRONGEST
 
 
 def strength_lines(shear_MPa):

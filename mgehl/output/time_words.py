@@ -1,13 +1,16 @@
 """A run in time in words."""
 
 from mgehl.output.digits import pressure_words, with_band
-from mgehl.output.friction_result import strength_lines
+from mgehl.output.friction_result import OUT_OF_RANGE, is_out_of_range, strength_lines
 
 ALIKE = 1e-4
 """Part of a mean below which its band is not told."""
 
 BEYOND, MUCH = 5e-4, 5.0
 """Part of the load beyond the domain that is told, and per cent from which on a larger one is advised."""
+
+OF_PASSAGE, OF_RUN = "over the last passage", "over the whole run"
+"""What means are over."""
 
 SPIKE = "a spike that three nodes do not hold"
 """What a largest pressure is beyond `NARROW`."""
@@ -22,12 +25,11 @@ def time_lines(time):
     )
     yield f"oil: storage and flow close to {time.largest_closure:.1e} of what is stored in every step"
     if time.means:
-        yield f"means over the last passage: {', '.join(_means(*_of_passage(time)))}"
+        yield f"means {OF_PASSAGE}: {', '.join(_means(time, *_of_passage(time)))}"
     elif time.passages:
         yield "no means: the run ends before its first passage"
     if time.whole:
-        bands = time.error.whole if time.error else {}
-        yield f"means over the whole run: {', '.join(_means(time.whole, bands))}"
+        yield f"means {OF_RUN}: {', '.join(_means(time, *_of_run(time)))}"
     if time.most_pressure_GPa is not None:
         most, least = pressure_words(time.most_pressure_GPa), time.least_film_nm
         yield f"of all steps: largest pressure {most}, smallest film {least:.4g} nm"
@@ -53,25 +55,42 @@ def _of_passage(time):
     }
 
 
+def _of_run(time):
+    """Means over the whole run and the half-widths of their bands."""
+    return time.whole, time.error.whole if time.error else {}
+
+
 def of_a_mean(passages, grids):
     """The half-width about a mean of which passages and grids differ by so much: that passages are alike
     says nothing of the grid. None where grids tell none."""
     return None if grids is None else grids + (passages or 0.0)
 
 
-def _means(values, bands):
+def _means(time, values, bands):
     """Means in words, with the bands that there are."""
     pressure, friction = "max_pressure_GPa", "friction"
     yield f"mean gap {_mean(values, bands, 'mean_gap_nm')} nm"
     yield f"the largest pressure {pressure_words(values[pressure], _told(values, bands, pressure))}"
     yield f"load on solids {_mean(values, bands, 'load_on_solids', 100.0)} %"
     if values[friction]:
-        yield f"friction {_mean(values, bands, friction)} of the load"
+        words = _friction(time, values, bands)
+        yield f"friction {words if words == OUT_OF_RANGE else f'{words} of the load'}"
 
 
-def mean_gap_words(time):
-    """The mean gap over the last passage in nm."""
-    return _mean(*_of_passage(time), "mean_gap_nm")
+def _friction(time, values, bands):
+    """The mean coefficient."""
+    of_oil = values["friction"], time.largest_shear_MPa
+    return OUT_OF_RANGE if is_out_of_range(*of_oil) else _mean(values, bands, "friction")
+
+
+def means_in_short(time):
+    """(Mean, its words) of gap and friction: over the whole run where speed or load change, else over the
+    last passage; nothing before its end."""
+    over, (values, bands) = (OF_RUN, _of_run(time)) if time.whole else (OF_PASSAGE, _of_passage(time))
+    if values:
+        yield f"mean gap {over}", f"{_mean(values, bands, 'mean_gap_nm')} nm"
+    if values.get("friction"):
+        yield f"friction {over}", _friction(time, values, bands)
 
 
 def _mean(values, bands, name, scale=1.0):

@@ -10,7 +10,7 @@ import mgehl
 from mgehl.output.gap_error import no_band
 from mgehl.output.resolution import Resolution
 from mgehl.output.result import Mean, TimeError
-from mgehl.output.time_words import mean_gap_words
+from mgehl.output.time_words import means_in_short
 from mgehl.output.words import FAILED, UNRESOLVED
 
 
@@ -27,7 +27,8 @@ def test_a_mean_is_rounded_as_its_band_is():
         in_time(means={"mean_gap_nm": mean}, error=TimeError("", means=band))
         for mean, band in zip(means, bands, strict=True)
     ]
-    assert [mean_gap_words(time) for time in times] == ["150 ± 30", "148.9", "148.9"]
+    told = [("mean gap over the last passage", f"{gap} nm") for gap in ("150 ± 30", "148.9", "148.9")]
+    assert [found for time in times for found in means_in_short(time)] == told
 
 
 @pytest.mark.parametrize("spikes", [0, 3])

@@ -29,7 +29,7 @@ from mgehl.output.resolution import RESOLVED_CELLS, STANDS, STARVED_FROM, near_r
 from mgehl.output.summary import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import ADVICE as SURFACE
 from mgehl.output.surface import RESOLVED_NODES
-from mgehl.output.time_words import mean_gap_words, time_lines
+from mgehl.output.time_words import means_in_short, time_lines
 from mgehl.output.words import advice, band_words, heating_words, largest_pressure_words, span
 from mgehl.solver.recipe import A_STATE
 from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
@@ -160,7 +160,7 @@ FUNCTIONS = {
     each.__name__: each for each in (
         number, limited, enough, absent, informing, judged, shows, from_each, advice, band_words,
         gap_band_words, mean_gaps, near_rest, of_inlet, span, carried, largest_pressure_words, time_lines,
-        mean_gap_words, heating_words, friction_lines, coefficient_words, pressure_words, pressure_unit,
+        means_in_short, heating_words, friction_lines, coefficient_words, pressure_words, pressure_unit,
     )
 }  # fmt: skip
 """What run.html.j2 calls."""
