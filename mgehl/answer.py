@@ -69,6 +69,8 @@ class Solution(Solved):
         from mgehl.output.pictures.figures import figures
 
         self._needs_fields("plot")
+        if not isinstance(kind, str):
+            raise UserError(f"plot: kind must be one name, not {kind!r}")
         return figures(self, [kind])[0].figure
 
     def save(self, directory: str | PathLike[str], force: bool = False) -> Path:
