@@ -193,16 +193,16 @@ def _arm(body):
 
 def arms(config, angle):
     """Distance of the contact from either body's axis in m, the motion being at an `angle` in degrees: the
-    radius along the motion, or rotation_radius. None of a body that is flat that way, or whose radii differ
-    where the motion is along neither."""
+    one by which its rotation is a speed, else the radius along the motion. None of a body that is flat that
+    way, or whose radii differ where the motion is along neither."""
     bodies = config.body_1, config.body_2
     radii = zip(*_own_radii(bodies, config.contact.kind).values(), strict=True)
     return [_arm_towards(angle % 180.0, *each) for each in zip(bodies, radii, strict=True)]
 
 
 def _arm_towards(angle, body, radii):
-    if body.rotation_radius is not None:
-        return body.rotation_radius
+    if body.rotation is not None:
+        return _arm(body)
     along = radii[0] if angle == 0.0 or len(set(radii)) == 1 else radii[1] if angle == 90.0 else inf
     return None if abs(along) == inf else abs(along)
 

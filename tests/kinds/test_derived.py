@@ -227,11 +227,12 @@ def test_heat_of_the_inlet_goes_by_what_the_oil_tells(known, said):
     assert said in words
 
 
-@pytest.mark.parametrize("angle, found", [(0.0, (0.03, 0.01)), (90.0, (0.01, None)), (-180.0, (0.03, 0.01)),
-                                          (30.0, (None, None))])  # fmt: skip
-def test_a_body_rolls_on_its_radius_along_the_motion(angle, found):
-    """And on none where it is flat that way, or goes along neither axis."""
-    settings = {"body_1.radius_x": 0.03, "body_1.radius_y": 0.01, "body_2.radius_x": 0.01}
+@pytest.mark.parametrize("angle, turns, found", [(0.0, {}, (0.03, 0.01)), (90.0, {}, (0.01, None)),
+    (-180.0, {}, (0.03, 0.01)), (30.0, {}, (None, None)),
+    (90.0, {"body_1.rotation": 9.0, "body_2.speed": 1.0}, (0.03, None))])  # fmt: skip
+def test_a_body_rolls_on_its_radius_along_the_motion(angle, turns, found):
+    """On that of its speed if it turns; on none where it is flat that way, or goes along neither axis."""
+    settings = {"body_1.radius_x": 0.03, "body_1.radius_y": 0.01, "body_2.radius_x": 0.01, **turns}
     assert tuple(arms(load_config(None, settings), angle)) == found
 
 
