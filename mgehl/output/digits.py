@@ -42,10 +42,12 @@ def with_band(value, half_width=None):
     return f"{round(value / unit) * unit + 0.0:.{shown}f} ± {wide:.{shown}f}"
 
 
-def film_words(nm, half_width=None):
-    """A film, with its band if there is one."""
+def film_words(nm, half_width=None, digits=None):
+    """A film, with its band if there is one; else with so many digits, if that is told."""
     factor, unit = film_unit(1e-9 * nm)
     factor *= 1e-9
+    if half_width is None and digits:
+        return f"{factor * nm:.{digits}g} {unit}"
     return f"{with_band(factor * nm, half_width and factor * half_width)} {unit}"
 
 

@@ -19,6 +19,9 @@ from mgehl.output.time_words import SPIKE, time_lines
 HARDLY = 2e-3
 """Part of a film by which shear must thin it to be told."""
 
+UNKNOWN = 3
+"""Digits of a film that has no band, though one was asked for."""
+
 LISTED = 20
 """Most nodes that are named one by one."""
 
@@ -93,7 +96,7 @@ def _dry_lines(result):
         approach += " (of a line contact it counts from a distance of a: loads cannot be compared)"
     yield f"approach {approach}"
     area = _size(contact, error.area_fraction)
-    yield f"contact: {area}; {_where(contact)}; largest gap {contact.largest_gap_nm:.1e} nm"
+    yield f"contact: {area}; {_where(result)}; largest gap {contact.largest_gap_nm:.1e} nm"
     yield f"{'no band' if error.area_fraction is None else 'bands'}: {error.how}"
     surface = result.surface
     if surface and (shown := surface_words(surface.verdict, surface.wave_nodes)):
@@ -152,15 +155,17 @@ def thinning_words(result):
         if friction and friction.thins:
             yield "shear thins the oil: how thick the film would be without that is not known"
         return
+    error, thick = result.error, friction.unthinned_film_nm
     films = {
-        "central film": (result.central_film_nm, friction.unthinned_film_nm),
-        "minimum film": (result.minimum_film_nm, friction.unthinned_minimum_nm),
+        "central film": (result.central_film_nm, error.central_nm, thick),
+        "minimum film": (result.minimum_film_nm, error.minimum_nm, friction.unthinned_minimum_nm),
     }
     if mixed:
-        films = {"mean gap": (mixed.mean_gap_nm, friction.unthinned_film_nm)}
-    for name, (own, thick) in films.items():
+        films = {"mean gap": (mixed.mean_gap_nm, mixed.error and mixed.error.mean_nm, thick)}
+    for name, (own, band, thick) in films.items():
         if thick is not None and thick - own > HARDLY * own:
-            yield f"shear thins the oil: without that the {name} would be {thick:.4g} nm"
+            thick = f"{thick:.4g}" if band is None else with_band(thick, band)
+            yield f"shear thins the oil: without that the {name} would be {thick} nm"
             return
     yield "shear thins the oil, the film hardly"
 
@@ -207,8 +212,12 @@ def _size(contact, half_width=None):
     return f"{contact.nodes} nodes, {per_cent} % of the Hertz area"
 
 
-def _where(contact):
-    return f"nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0"
+def _where(result):
+    """First and last nodes of contact along the axes; of a line contact there is one."""
+    contact = result.contact
+    if result.edge.nodes_along_y is None:
+        return f"between nodes {span(contact.x_nodes)}"
+    return f"between nodes {span(contact.x_nodes)} on Y = 0, {span(contact.y_nodes)} on X = 0"
 
 
 def _contact(result, verbose):
@@ -218,7 +227,7 @@ def _contact(result, verbose):
     gap = f"largest gap {largest:.1e} nm"
     if kept and contact.nodes:  # layers, or the threshold of smooth bodies
         gap = f"largest gap {largest:.4g} nm, contact keeps {kept:.4g} nm"
-    yield f"contact: {_size(contact)}" + (f"; {_where(contact)}; {gap}" if verbose else "")
+    yield f"contact: {_size(contact)}" + (f"; {_where(result)}; {gap}" if verbose else "")
     if verbose or inequality.violations:
         broken = f"{inequality.violations} of {inequality.checked}"
         blind = f", undecided at {_of_faces(inequality.power)}" if inequality.power.undecided else ""
@@ -279,8 +288,10 @@ def advice(result):
 
 def films_words(result):
     """Central and minimum film of a `Result` with their bands."""
-    minimum = film_words(result.minimum_film_nm, result.error.minimum_nm)
-    return f"central film {film_words(result.central_film_nm, result.error.central_nm)}, minimum {minimum}"
+    error = result.error
+    digits = None if error.how == NOT_ASKED.how else UNKNOWN
+    central = film_words(result.central_film_nm, error.central_nm, digits)
+    return f"central film {central}, minimum {film_words(result.minimum_film_nm, error.minimum_nm, digits)}"
 
 
 def band_words(error):

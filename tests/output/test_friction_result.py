@@ -115,5 +115,5 @@ def test_the_film_without_thinning_is_told_beside_the_thinned_one(surface):
     assert thinned.converged and thinned.friction.unthinned_film_nm == pytest.approx(film, rel=1e-5)
     assert thick.friction.unthinned_film_nm is None
     name, minimum = "mean gap" if surface else "central film", thick.minimum_film_nm
-    assert f"without that the {name} would be {thinned.friction.unthinned_film_nm:.4g} nm" in str(thinned)
+    assert f"without that the {name} would be {round(film, -1):.0f} ± " in str(thinned)
     assert thinned.friction.unthinned_minimum_nm == pytest.approx(minimum, rel=1e-5)

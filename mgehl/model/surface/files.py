@@ -77,8 +77,13 @@ def _read_numpy(path):
 
 def _matrix_or_profile(path, heights):
     """The `Map` of an array: of one row or column, or of one axis, that of a profile."""
-    is_line = heights.ndim == 1 or (heights.ndim == 2 and 1 in heights.shape)
-    return Map.of_profile(path, heights.ravel()) if is_line else Map(path, heights)
+    if _is_profile(heights.shape):
+        return Map.of_profile(path, heights.ravel())
+    return Map(path, heights)
+
+
+def _is_profile(shape):
+    return len(shape) == 1 or (len(shape) == 2 and 1 in shape)
 
 
 class _Arrays:
@@ -146,9 +151,10 @@ def _unit(path, found, name):
 
 
 def _steps(path, found, shape):
-    """dx and dy by coordinates x and y, or as they are given; None of what is not there."""
-    steps = {}
-    for axis, length in (("y", shape[0]), ("x", shape[-1])):
+    """dx and dy by coordinates x and y, or as they are given; nothing of what is not there. A profile has x
+    alone."""
+    steps, is_profile = {}, _is_profile(shape)
+    for axis, length in [("x", max(shape))] if is_profile else [("y", shape[0]), ("x", shape[-1])]:
         if axis in found:
             line = np.ravel(_numbers(path, found[axis]))
             if len(line) != length:
@@ -158,7 +164,9 @@ def _steps(path, found, shape):
             steps[f"d{axis}"] = step_along(path, axis, line)
         elif f"d{axis}" in found:
             steps[f"d{axis}"] = float(found[f"d{axis}"])
-    if len(steps) == 1:
+    if is_profile and steps:
+        steps["dy"] = steps["dx"]
+    elif len(steps) == 1:
         (name,) = steps
         raise SurfaceFileError(path, f"tells {name} alone; x and y, or dx and dy, go together")
     for name, step in steps.items():

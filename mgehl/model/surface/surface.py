@@ -67,12 +67,8 @@ class Sum(Surface):
         return min(part.shortest(x, y) for part in self.parts)
 
     def filtered(self, wavelengths, x, y):
-        """The sum of the parts, those filtered that have shorter waves."""
-        longest = (1.0 - JUST) * max(wavelengths)
-        return Sum(tuple(
-            part if part.shortest(x, y) >= longest else part.filtered(wavelengths, x, y)
-            for part in self.parts
-        ))  # fmt: skip
+        """The sum of the parts, each filtered: the same heights in other parts have the same waves."""
+        return Sum(tuple(part.filtered(wavelengths, x, y) for part in self.parts))
 
     def varies_along(self, direction):
         """Whether a part does."""

@@ -271,10 +271,10 @@ def test_one_row_or_column_is_a_profile(tmp_path, shape):
     np.savetxt(tmp_path / "z.txt", NOISE.reshape(shape))
     np.save(tmp_path / "z.npy", NOISE.ravel())
     np.save(tmp_path / "column.npy", NOISE.reshape(shape))
-    np.savez(tmp_path / "z.npz", heights=NOISE.reshape(shape))
+    np.savez(tmp_path / "z.npz", heights=NOISE.reshape(shape), x=3.0 * np.arange(54))
     for name in ("z.txt", "z.npy", "column.npy", "z.npz"):
         found = read_map(tmp_path / name)
-        assert found.is_profile and found.dx is None
+        assert found.is_profile and found.dx == (3.0 if name == "z.npz" else None)
         np.testing.assert_array_equal(found.heights[0], NOISE.ravel())
 
 
