@@ -51,6 +51,10 @@ SOURCES = {
         "methodology",
         "Tribology Letters 69, 164", "10.1007/s11249-021-01515-w",
     ),
+    "elrod1981": Source(
+        "article", "Elrod, H. G.", 1981, "A cavitation algorithm",
+        "Journal of Lubrication Technology 103, 350-354", "10.1115/1.3251669",
+    ),
     "johnson1985": Source(
         "book", "Johnson, K. L.", 1985, "Contact Mechanics", "Cambridge University Press",
         "10.1017/CBO9781139171731",

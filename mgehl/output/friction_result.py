@@ -51,8 +51,11 @@ class FrictionResult:
     power_loss_W: float
     """Of sliding and rolling, of both bodies, in the domain."""
     largest_shear_MPa: float
+    rolling_power_W: float | None = None
+    """The part of rolling alone; None in older results."""
     temperatures: Temperatures | None = None
-    """None where [heat] says nothing of the bodies, of a band of heat on a body at rest, and in time."""
+    """By the heat of sliding. None where [heat] says nothing of the bodies, of a band of heat on a body at
+    rest, and in time."""
     per_metre: bool = False
     """Whether forces and power are those of a metre: of a line contact."""
     coefficient_band: float | None = None
@@ -84,6 +87,9 @@ STRONGEST = 300.0
 LEAST = 1e-5
 """Coefficient of surfaces that slide below which the stress of a user's law may have another unit."""
 
+UNTOLD = 0.05
+"""Part of the power that rolling makes and that is said beside temperatures, which leave it out."""
+
 TINY = 1e-300
 """No pressure at all: the film has no mean by it."""
 
@@ -102,6 +108,7 @@ def friction_result(problem, state, steady=True):
     dragged = total if slides > 0.0 else -total
     (rolling_1, rolling_2), half = shear.rolling, 0.5 * slides
     sliding = friction.sliding_speed(speed)
+    rolls = speed * ((1.0 + half) * rolling_1 + (1.0 - half) * rolling_2)
     rise = rise_of(problem, state, stress) if steady and has_temperatures(contact) else None
     result = FrictionResult(
         model=friction.rheology.name,
@@ -116,7 +123,8 @@ def friction_result(problem, state, steady=True):
         force_1_N=-dragged - rolling_1,
         force_2_N=dragged - rolling_2,
         rolling_N=-shear.rolling_force,
-        power_loss_W=total * sliding + speed * ((1.0 + half) * rolling_1 + (1.0 - half) * rolling_2),
+        power_loss_W=total * sliding + rolls,
+        rolling_power_W=rolls,
         largest_shear_MPa=1e-6 * problem.grid.max(stress),
         temperatures=rise and _temperatures(problem, state, rise),
         per_metre=contact.is_line,
@@ -222,7 +230,7 @@ def friction_lines(friction, verbose, at_a_spike=False):
     if friction.model == "own" and friction.coefficient < LEAST:
         yield f"friction below {LEAST:g} is less than oils have: the law's stress is to be in Pa"
     if friction.temperatures:
-        yield _temperature_words(friction.temperatures)
+        yield _temperature_words(friction)
     if friction.is_the_grids:
         yield "no band of friction: another grid may give another coefficient"
 
@@ -254,8 +262,12 @@ def strength_lines(shear_MPa):
         )
 
 
-def _temperature_words(found):
+def _temperature_words(friction):
     """How much warmer surfaces and film are than the bodies."""
-    known = found.film is not None
-    film = f", film on average {found.film:.3g} K, at most {found.largest_film:.3g} K" if known else ""
-    return f"flash temperature: body 1 up to {found.largest_1:.3g} K, body 2 {found.largest_2:.3g} K{film}"
+    found, rolls = friction.temperatures, friction.rolling_power_W or 0.0
+    words = f"flash temperature: body 1 up to {found.largest_1:.3g} K, body 2 {found.largest_2:.3g} K"
+    if found.film is not None:
+        words += f", film on average {found.film:.3g} K, at most {found.largest_film:.3g} K"
+    if rolls > UNTOLD * friction.power_loss_W:
+        words += f"; without the heat of rolling, {rolls:.3g} W"
+    return words

@@ -70,13 +70,15 @@ def test_what_is_unusual_is_named(settings, words):
 def test_a_run_cites_what_it_used():
     config = load_config(None, OIL | {"body_1.material": "glass", "body_2.material": "steel"})
     found = cited(config, contact_from(config))
-    assert found[:2] == ["liu2021", "johnson1985"]
+    assert found[:3] == ["liu2021", "elrod1981", "johnson1985"]
     assert {"schott", "iso6336", "arana2019", "dowson1966", "hamrock1977", "grubin1949"} <= set(found)
     assert "barus1893" not in found and set(found) <= set(SOURCES)
     dry = load_config(None, {"discretization.contact_model": "dry"})
     assert cited(dry, contact_from(dry)) == ["liu2021", "johnson1985", "yastrebov2017"]
     wedge = load_config(CONFIGS / "wedge_open.toml")
     assert cited(wedge, contact_from(wedge)) == ["liu2021"]
+    torn = wedge.with_({"discretization.cavitation": True})
+    assert cited(torn, contact_from(torn)) == ["liu2021", "elrod1981"]
 
 
 @pytest.mark.parametrize(
