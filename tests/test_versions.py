@@ -12,12 +12,8 @@ def said(key):
     return re.findall(rf"^{key}: (.+)$", CITATION, re.MULTILINE)
 
 
-def test_citation_names_this_version():
-    assert said("version") == [VERSION]
-
-
 def test_changelog_begins_with_this_version_and_the_day_that_citation_names():
     headings = re.findall(r"^## (.+)$", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
-    released = [heading for heading in headings if heading != "Unreleased"]
-    assert headings.index(released[0]) <= 1
-    assert [released[0]] == [f"{VERSION} - {day}" for day in said("date-released")]
+    headings = [heading for heading in headings if heading != "Unreleased"]
+    assert said("version") == [VERSION]
+    assert headings[:1] == [f"{VERSION} - {day}" for day in said("date-released")]

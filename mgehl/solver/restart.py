@@ -222,6 +222,8 @@ def _laid_on(problem, start, frame):
     P, p = higher * laid(fields.P), higher * laid(fields.fluid_pressure)
     filling = 1.0 - laid(1.0 - fields.full_part)  # full outside
     status = problem.status_of(P, laid((fields.status == CONTACT).astype(float)))
+    if problem.scheme.cavitation:  # oil around it may have had another pressure
+        P, p = (np.maximum(each, problem.contact.tears_at) for each in (P, p))
     return P, p, filling, status
 
 

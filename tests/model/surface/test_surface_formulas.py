@@ -22,8 +22,7 @@ class TestWaviness:
 
     def test_without_one_length_nothing_changes_that_way(self):
         ridges = Waviness(2e-7, None, 1e-4)
-        assert ridges.height(0.0, 0.0) == 2e-7
-        assert ridges.height(5e-5, 5e-5) == pytest.approx(-2e-7)
+        assert (ridges.height(0.0, 0.0), ridges.height(5e-5, 5e-5)) == pytest.approx((2e-7, -2e-7))
         assert not ridges.varies_along((1.0, 0.0)) and ridges.varies_along((0.6, 0.8))
 
 
@@ -162,3 +161,6 @@ class TestWhatIsNotKnown:
             np.testing.assert_allclose(part, whole[lines], rtol=0, atol=1e-12)
         np.testing.assert_allclose(smooth.height(coarse[:, None], coarse[None, :]), whole.T, atol=1e-14)
         np.testing.assert_allclose(on_nodes(smooth, coarse[::-1], coarse), whole[:, ::-1], atol=1e-12)
+        ramp, wave = Plain(lambda x, y: 1e3 * x + 0.0 * y), Plain(lambda x, y: np.cos(1e5 * x + 2e5 * y))
+        parts = summed((ramp, wave)).filtered((1e-4, 1e-4), self.nodes, self.nodes)
+        np.testing.assert_allclose(on_nodes(parts, coarse, coarse), whole, rtol=0, atol=1e-12)
