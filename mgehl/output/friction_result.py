@@ -51,8 +51,6 @@ class FrictionResult:
     power_loss_W: float
     """Of sliding and rolling, of both bodies, in the domain."""
     largest_shear_MPa: float
-    rolling_power_W: float | None = None
-    """The part of rolling alone; None in older results."""
     temperatures: Temperatures | None = None
     """By the heat of sliding. None where [heat] says nothing of the bodies, of a band of heat on a body at
     rest, and in time."""
@@ -79,6 +77,8 @@ class FrictionResult:
     """Whether shear thins the film."""
     is_asked: bool = True
     """Whether a slide-to-roll ratio is given, be it 0."""
+    rolling_power_W: float | None = None
+    """The part of the power that is rolling's; None in older results."""
 
 
 STRONGEST = 300.0

@@ -4,6 +4,8 @@ At rest the surfaces stand still while the oil is drawn through; in motion each 
 and means over passages are told. The oil is Newtonian, or thinned by shear.
 """
 
+from math import sqrt
+
 import numpy as np
 
 from mgehl.output.pictures.style import COLOURS, subplots
@@ -68,11 +70,18 @@ def case(nodes, oil, motion, speed):
 
 def row(oil, motion, speed, result):
     """Text of a case."""
-    found = {"oil": oil, "surfaces": motion, "speed mm/s": f"{1e3 * speed:g}", **told(result, "lambda")}
+    found = {"oil": oil, "surfaces": motion, "speed mm/s": f"{1e3 * speed:g}"}
+    found["lambda"] = f"{lambda_of(result):.3g}"
     for name in ("load_on_solids", "load_on_contact", "mean_gap_nm"):
         value, band = _mean(result, name)
         found |= {name.replace("_", " "): f"{value:.4g}", "band of " + name.replace("_", " "): band}
     return found | told(result, "steps, convolutions, converged")
+
+
+def lambda_of(result):
+    """The film of smooth bodies over the rms of both surfaces: what of them lies within the Hertz ellipse
+    has another one in each instant."""
+    return result.mixed.lambda_ratio * result.mixed.Sq_nm / (sqrt(2.0) * 1e9 * SURFACE["rms"])
 
 
 def _mean(result, name):
@@ -87,7 +96,7 @@ def _mean(result, name):
 def _curve(results, oil, motion):
     """lambda and load on solids of what has converged and touches, from thin to thick films."""
     points = sorted(
-        (result.mixed.lambda_ratio, _mean(result, "load_on_solids")[0])
+        (lambda_of(result), _mean(result, "load_on_solids")[0])
         for (own, moved, _), result in results.items()
         if (own, moved) == (oil, motion) and result.converged
     )
@@ -111,7 +120,7 @@ def figure(curves):
     for (oil, motion), (ratio, solids) in curves.items():
         colour = COLOURS[list(OILS).index(oil)]
         axis.plot(ratio, solids, strokes[motion], color=colour, label=f"{oil}, {motion}")
-    axis.set(xscale="log", xlabel="lambda: film of smooth bodies over Sq")
+    axis.set(xscale="log", xlabel="lambda: film of smooth bodies over the rms of both surfaces")
     axis.set(yscale="log", ylabel="part of the load on solids")
     axis.legend()
     return figure
