@@ -33,7 +33,7 @@ BEGUN, UNDER_WAY = "begun.npz", "under-way.npz"
 START = "start"
 """Folder of the run that this one was started from."""
 
-FORMAT = 16
+FORMAT = 17
 """Version of the files, up with every change of layout or name; those of another are not read."""
 
 

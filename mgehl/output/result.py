@@ -129,6 +129,8 @@ class TimeResult:
     """Of all steps the largest part of the load on what is squeezed out beyond the domain, below 0 in."""
     error: TimeError | None = None
     """The bands about its means; None in older results."""
+    Sq_nm: float | None = None
+    """Rms of the heights within the Hertz ellipse over the last passage; None of smooth bodies."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -29,6 +29,7 @@ COLUMNS = {
     "central_film_nm": ("nm", "film at the centre of the contact"),
     "minimum_film_nm": ("nm", "smallest film"),
     "mean_gap_nm": ("nm", "mean gap within the Hertz ellipse of the load"),
+    "Sq_nm": ("nm", "rms of the heights within the Hertz ellipse of the load, of rough bodies"),
     "max_pressure_GPa": ("GPa", "largest pressure"),
     "pressure_crest": ("1", "what it may be larger between the nodes, over itself"),
     "load_on_contact": ("1", "part of the load on contact nodes"),
@@ -89,6 +90,7 @@ def row_of(instant, standing, problem, scene, convolutions, seconds):
         "central_film_nm": last.central * nm,
         "minimum_film_nm": last.minimum * nm,
         "mean_gap_nm": problem.mean(state.H, inside) * nm,
+        **({"Sq_nm": _roughness(problem, inside) * nm} if scene.contact.surface else {}),
         "max_pressure_GPa": 1e-9 * contact.pressure_scale * carried.largest,
         "pressure_crest": carried.crest_share,
         "load_on_contact": carried.contact,
@@ -106,6 +108,13 @@ def row_of(instant, standing, problem, scene, convolutions, seconds):
         "convolutions": convolutions,
         "seconds": seconds,
     }
+
+
+def _roughness(problem, inside):
+    """Rms of the heights of some nodes, in units of H (collective)."""
+    grid = problem.grid
+    heights = problem.contact.smooth_gap(*np.broadcast_arrays(grid.X, grid.Y)) - problem.undeformed
+    return np.sqrt(problem.mean((heights - problem.mean(heights, inside)) ** 2, inside))
 
 
 def _gone(instant, standing, scene):
@@ -178,6 +187,15 @@ def _of_passages(rows, gone, name, count):
     return [float(np.average(values[one], weights=weights[one])) if one.any() else nan for one in passages]
 
 
+def passing_Sq_nm(rows, gone):
+    """Rms of the heights over the last passage, or all steps before its end; None of smooth bodies."""
+    if "Sq_nm" not in rows[0]:
+        return None
+    last = gone > gone[-1] - 1.0 + ROUNDING
+    weights, Sq = (np.array([row[name] for row in rows])[last] for name in ("step_s", "Sq_nm"))
+    return float(np.sqrt(np.average(Sq**2, weights=weights)))
+
+
 def has_whole(scene):
     """Whether a mean over the whole run is asked for: where speed or load of a `Scene` change."""
     least, most = scene.load.range(scene.end)
@@ -226,6 +244,7 @@ def time_result(rows, scene, work, largest_node):
         passages=float(gone[-1]),
         means=means(rows, gone),
         whole=over_all(rows, scene),
+        Sq_nm=passing_Sq_nm(rows, gone),
         largest_shear_MPa=max(row["largest_shear_MPa"] for row in rows),
         most_pressure_GPa=max(row["max_pressure_GPa"] for row in rows),
         least_film_nm=min(row["minimum_film_nm"] for row in rows),

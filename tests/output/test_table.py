@@ -77,16 +77,16 @@ def test_runs_of_a_bearing_have_the_speed_that_follows_and_their_lambda(tmp_path
 def test_a_run_in_time_is_told_by_its_means():
     """In the tables was its last instant, without a word: a wave in the contact, or beside it."""
     means = {name: {"value": float(i), "between_passages": 0.1 * i} for i, name in enumerate(MEANS)}
-    instant = {"central_film_nm": 99.0, "moes_film": {"central": 3.5}, "mixed": None}
-    instant["error"] = {"reason": "of an instant"}
+    instant = {"central_film_nm": 99.0, "moes_film": {"central": 3.5}}
+    instant["mixed"], instant["error"] = {"lambda_ratio": 3.0, "Sq_nm": 20.0}, {"reason": "of an instant"}
     error = {"means": {"friction": 0.2}}
-    told = Told({}, with_means(instant | {"time": {"means": means, "error": error}}))
+    told = Told({}, with_means(instant | {"time": {"means": means, "error": error, "Sq_nm": 10.0}}))
     assert [told.number(QUANTITIES[name].path) for name in MEANS] == list(range(len(MEANS)))
     assert told.number("contact.load_fraction") == told.number("mixed.contact_load_share")
     assert told.number("friction.coefficient_band") == pytest.approx(0.6 + 0.2)
     assert told.result["mixed"]["error"]["mean_nm"] is None  # passages alone tell no band
     assert told.result["error"]["reason"] == "of an instant"
-    assert told.result["moes_film"] is None
+    assert (told.result["moes_film"], told.result["mixed"]["lambda_ratio"]) == (None, 6.0)
     assert [of_what(each) for each in (told.result, {"time": {"means": {}}}, {})] == [PASSAGE, INSTANT, ""]
     for time in ({}, {"time": None}, {"time": {"means": {}}}):
         assert with_means(instant | time) == instant | time
