@@ -300,22 +300,24 @@ def test_the_end_is_told_by_the_load_of_the_end(course):
     load = course((0.0, 5.0), (0.05 * UNIT, 10.0))
     wide = {"grid__x": [-2.5, 2.0], "grid__y": [-2.0, 2.0], "grid__nodes": 65}
     waves = {"surface__kind": "waviness", "surface__amplitude": 3e-8, "surface__wavelength_y": 6e-5}
-    slow = {"motion__speed": 1e-4, "contact__boundary_film": 2e-9}
-    after = solved(contact__load=load, time__end=0.05 * UNIT, **wide, **waves, **slow)
+    slow = {"motion__speed": 1e-4, "contact__boundary_film": 2e-9, "time__end": 0.05 * UNIT}
+    after = solved(contact__load=load, **wide, **waves, **slow)
     result, last = after.summary, after.rows[-1]
-    assert result.contact.load_fraction == pytest.approx(last["load_on_contact"], abs=1e-6)
-    assert result.contact.load_fraction > 0.5
-    mixed = result.mixed
+    assert 0.5 < result.contact.load_fraction == pytest.approx(last["load_on_contact"], abs=1e-6)
+    mixed, beyond = result.mixed, last["squeezed_beyond"]
     within = mixed.contact_load_share + mixed.film_load_share
-    assert within + last["squeezed_beyond"] == pytest.approx(1.0, abs=1e-4)
-    assert last["squeezed_beyond"] > 0.05  # the load doubles in 76 us
+    assert within + beyond == pytest.approx(1.0, abs=1e-4) and beyond > 0.05  # it doubles in 76 us
     assert mixed.mean_gap_nm == pytest.approx(last["mean_gap_nm"], rel=1e-6)
-    hertz = after.at_the_end
-    assert hertz.x_scale == pytest.approx(2.0 ** (1.0 / 3.0) * after.contact.x_scale)
+    hertz, larger = after.at_the_end, 2.0 ** (1.0 / 3.0)
+    assert hertz.x_scale == pytest.approx(larger * after.contact.x_scale)
     inside = np.hypot(after.x[None, :], after.y[:, None]) <= hertz.x_scale
     assert mixed.mean_gap_nm == pytest.approx(1e9 * after.film[inside].mean())
-    area = np.pi * hertz.x_scale * hertz.y_scale
-    assert mixed.contact_area_m2 == pytest.approx(mixed.contact_area_over_hertz * area)
+    far = (
+        hertz.drag_beyond(Mesh(65, 65, *(np.divide(wide[f"grid__{axis}"], larger) for axis in "xy"))) / 10.0
+    )
+    assert result.friction.rolling_beyond == pytest.approx(far, rel=1e-9) and far > 0.0
+    part = mixed.contact_area_m2 / (np.pi * hertz.x_scale * hertz.y_scale)
+    assert mixed.contact_area_over_hertz == pytest.approx(part)
 
 
 def test_the_inlet_is_that_of_the_slowest_motion_and_heat_that_of_the_end(course):

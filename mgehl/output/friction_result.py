@@ -136,8 +136,13 @@ def friction_result(problem, state, steady=True):
 
 def _beyond(problem, state):
     """What rolling and sliding take from the bodies beyond the domain."""
-    contact, whole = problem.contact, flows_out_whole(problem, state)
-    where = as_the_motion_goes(problem), whole
+    contact, whole = problem.contact.under(problem.load_share), flows_out_whole(problem, state)
+    mesh, reach = (
+        as_the_motion_goes(problem),
+        problem.hertz.reach,
+    )  # whose units are those of the first load
+    x, y = (tuple(end / reach for end in ends) for ends in (mesh.x, mesh.y))
+    where = replace(mesh, x=x, y=y), whole
     dragged = contact.drag_beyond(*where)
     if contact.friction.slide_to_roll == 0.0:
         return dragged, 0.0
