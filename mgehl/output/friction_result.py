@@ -137,10 +137,7 @@ def friction_result(problem, state, steady=True):
 def _beyond(problem, state):
     """What rolling and sliding take from the bodies beyond the domain."""
     contact, whole = problem.contact.under(problem.load_share), flows_out_whole(problem, state)
-    mesh, reach = (
-        as_the_motion_goes(problem),
-        problem.hertz.reach,
-    )  # whose units are those of the first load
+    mesh, reach = as_the_motion_goes(problem), contact.x_scale / problem.contact.x_scale
     x, y = (tuple(end / reach for end in ends) for ends in (mesh.x, mesh.y))
     where = replace(mesh, x=x, y=y), whole
     dragged = contact.drag_beyond(*where)
