@@ -11,10 +11,9 @@ LAWS = {"barus": "barus1893", "roelands": "roelands1966", "dowson-higginson": "d
 def cited(config, contact):
     """Keys of `mgehl.model.sources.SOURCES` in order: equations, bodies, oil, films of formulas."""
     found = ["liu2021"]
-    tears = config.discretization.cavitation
-    found += (
-        ["elrod1981"] if not config.is_dry and (config.kind.cavitates if tears is None else tears) else []
-    )
+    named = config.discretization.cavitation
+    tears = config.kind.cavitates if named is None else named
+    found += ["elrod1981"] if tears and not config.is_dry else []
     if contact.is_loaded:
         found.append("johnson1985")
         found += [

@@ -25,9 +25,11 @@ def is_number(text):
     return True
 
 
-def with_band(value, half_width=None):
+def with_band(value, half_width=None, digits=None):
     """A film and the half-width of its band, both of one unit, with one digit, or two that begin with a 1.
-    Without a band four digits stand after the point; of a diverged run four in all."""
+    Without a band it has so many `digits`, or four after the point; of a diverged run four in all."""
+    if half_width is None and digits:
+        return f"{value:.{digits}g}"
     known = half_width is not None and isfinite(value) and isfinite(half_width)
     is_small = known and 0.0 < half_width < abs(value) < SMALL
     if not known or abs(value) >= LARGE or is_small:
@@ -43,12 +45,10 @@ def with_band(value, half_width=None):
 
 
 def film_words(nm, half_width=None, digits=None):
-    """A film, with its band if there is one; else with so many digits, if that is told."""
+    """A film, with its band if there is one; else as `with_band`."""
     factor, unit = film_unit(1e-9 * nm)
     factor *= 1e-9
-    if half_width is None and digits:
-        return f"{factor * nm:.{digits}g} {unit}"
-    return f"{with_band(factor * nm, half_width and factor * half_width)} {unit}"
+    return f"{with_band(factor * nm, half_width and factor * half_width, digits)} {unit}"
 
 
 def pressure_words(GPa, half_width=None):

@@ -118,9 +118,10 @@ def with_means(result):
         _put_at(result, found.band, of_a_mean(mean["between_passages"], bands.get(name)))
         if name in ALSO_AT:
             _put_at(result, ALSO_AT[name], mean["value"])
-    if means and (Sq := told_at(result, "time.Sq_nm")):
-        result["mixed"]["lambda_ratio"] *= result["mixed"]["Sq_nm"] / Sq
-        result["mixed"]["Sq_nm"] = Sq
+    passing, Sq = told_at(result, "time.Sq_nm"), told_at(result, "mixed.Sq_nm")
+    if means and passing and Sq:
+        film = result["mixed"]["lambda_ratio"] * Sq
+        result["mixed"] |= {"lambda_ratio": film / passing, "Sq_nm": passing}
     return result
 
 

@@ -7,9 +7,9 @@ from mgehl.errors import UserError
 from mgehl.kinds import KINDS
 from mgehl.kinds.loaded import speed_words
 from mgehl.kinds.time import of_first_load
+from mgehl.output.film_words import films_words
 from mgehl.output.laws import portable
 from mgehl.output.mixed_words import mixed_note
-from mgehl.output.words import films_words
 
 MOST_KEYS = 3
 """Keys that a label may name; runs that differ in more are called by their directories."""

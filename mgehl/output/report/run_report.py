@@ -20,6 +20,7 @@ from mgehl.model.sources import SOURCES
 from mgehl.output.advice import beside_bands
 from mgehl.output.digits import pressure_words, with_band
 from mgehl.output.files import plain_result
+from mgehl.output.film_words import band_words, digits_of, heating_words
 from mgehl.output.friction_result import coefficient_words, friction_lines
 from mgehl.output.mixed_words import gap_band_words, mean_gaps
 from mgehl.output.pictures import style
@@ -30,7 +31,7 @@ from mgehl.output.summary import COMPLEMENTARITY_TOLERANCE
 from mgehl.output.surface import ADVICE as SURFACE
 from mgehl.output.surface import RESOLVED_NODES
 from mgehl.output.time_words import means_in_short, time_lines
-from mgehl.output.words import advice, band_words, heating_words, largest_pressure_words, span
+from mgehl.output.words import advice, largest_pressure_words, span
 from mgehl.solver.recipe import A_STATE
 from mgehl.solver.verification import FEWEST_NODES, LARGEST_EDGE_PRESSURE
 
@@ -145,9 +146,9 @@ def carried(mixed, name):
     return number(percent, 4) if band is None else with_band(percent, 100 * band)
 
 
-def film(nm, half_width=None):
-    """A film in nm as on the terminal: with its band; without, four digits after the point."""
-    return NO_NUMBER if number(nm) == NO_NUMBER else with_band(nm, half_width)
+def film(nm, half_width=None, digits=None):
+    """A film in nm as on the terminal: with its band; without, as `with_band`."""
+    return NO_NUMBER if number(nm) == NO_NUMBER else with_band(nm, half_width, digits)
 
 
 FUNCTIONS = {
@@ -171,7 +172,8 @@ def films_of(result, of_what=""):
     did not converge, and what an instant has, is not compared with formulas."""
     is_steady = result.converged and not result.time
     own, error = (result.central_film_nm, result.minimum_film_nm), result.error
-    shown = [film(nm, band) for nm, band in zip(own, (error.central_nm, error.minimum_nm), strict=True)]
+    bands, digits = (error.central_nm, error.minimum_nm), digits_of(error)
+    shown = [film(nm, band, digits) for nm, band in zip(own, bands, strict=True)]
     rows = [("computed", shown[0], "", shown[1], "")]
     formulas = {name.removesuffix("_nm"): nm for name, nm in result.formulas.items()}
     for name in dict.fromkeys(re.sub("_(central|minimum)$", "", name) for name in formulas):
