@@ -113,19 +113,24 @@ def _common(rows, coarser):
 def _half_widths(pairs, wider, of_last=False):
     """{column: half-width} about means of pairs of rows, or about the last of them."""
     steps = np.array([row["step_s"] for _, row in pairs])
-    weights, found = steps / steps.sum(), {}
+    weights, found, values = steps / steps.sum(), {}, {}
     opens = not of_last and max(np.ptp([row[name] for row, _ in pairs]) for name in SHARES) > OPENS
 
-    def told(values):
-        return float(values[-1] if of_last else weights @ values)
+    def told(column):
+        return float(column[-1] if of_last else weights @ column)
 
     for name in MEANS:
         fine, coarse = np.array([[row[name] for row in pair] for pair in pairs]).T
         # A difference that changes its sign with time is small in an instant, or on average, by chance.
         apart = float(weights @ np.abs(fine - coarse))
-        value, difference = told(fine), abs(told(fine) - told(coarse))
+        values[name] = value = told(fine)
+        difference = abs(value - told(coarse))
         half = _half_width(name, value, max(difference, apart), apart, 1.0 if name == PRESSURE else wider)
         found[name] = None if opens and name in SHARES else half
+    central, minimum = OF_FILMS
+    if found[central] and found[minimum]:  # both hang on the inlet, the smallest film on more besides
+        part = found[central] / values[central]
+        found[minimum] = max(found[minimum], part * values[minimum])
     crest, pressure = (np.array([row[name] for row, _ in pairs]) for name in ("pressure_crest", PRESSURE))
     if told(crest) > NARROW:
         found |= dict.fromkeys(OF_A_SPIKE)  # a spike that three nodes do not hold decides

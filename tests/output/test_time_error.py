@@ -62,10 +62,8 @@ def test_the_mean_load_on_contact_that_opens_has_no_band():
 
     def told(every, share):
         found = rows(lambda k: 1.0, every)
-        shares = [
-            {"load_on_contact": share(k), "load_on_solids": 0.1 * share(k)} for k in range(len(found))
-        ]
-        return [each | of for each, of in zip(found, shares, strict=True)]
+        shares = ({"load_on_contact": share(k), "load_on_solids": 0.1 * share(k)} for k in range(99))
+        return [each | of for each, of in zip(found, shares, strict=False)]
 
     def from_shares(fine, coarse):
         return from_rows(told(1, fine), told(2, coarse), scene()).means
@@ -78,8 +76,10 @@ def test_the_mean_load_on_contact_that_opens_has_no_band():
 def test_a_spike_that_three_nodes_do_not_hold_leaves_pressure_and_friction_without_bands():
     fine = [each | {"pressure_crest": 0.04} for each in rows(lambda k: 1.0)]
     fine[-1]["pressure_crest"] = 0.01
-    found = from_rows(fine, rows(lambda k: 1.1, coarse=2), scene())
+    coarse = [each | {"minimum_film_nm": 1.001} for each in rows(lambda k: 1.1, coarse=2)]
+    found = from_rows(fine, coarse, scene())
     assert {"max_pressure_GPa", "friction"}.isdisjoint(found.means) and "mean_gap_nm" in found.means
+    assert found.means["minimum_film_nm"] == found.means["central_film_nm"]  # no grid knows it better
     assert {"max_pressure_GPa", "friction"} <= found.at_the_end.keys()
 
 
@@ -88,8 +88,8 @@ def test_after_a_reversal_pressure_and_friction_have_no_bands(tmp_path):
     (tmp_path / "speed.csv").write_text(f"0,0.09\n{2.5 * UNIT},-0.09\n{6.0 * UNIT},-0.09\n")
     turns = scene(motion__speed=str(tmp_path / "speed.csv"))
     found = from_rows(rows(lambda k: 1.0), rows(lambda k: 1.1, coarse=2), turns)
-    assert {"max_pressure_GPa", "friction"}.isdisjoint(found.at_the_end | found.whole)
-    assert "mean_gap_nm" in found.at_the_end
+    without = {"max_pressure_GPa", "friction"}.isdisjoint(found.at_the_end | found.whole)
+    assert without and "mean_gap_nm" in found.at_the_end
 
 
 @pytest.fixture(scope="module")
