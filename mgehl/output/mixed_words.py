@@ -38,7 +38,7 @@ def _real_contact(mixed):
 
 def _ratio_words(mixed):
     """What lambda is the ratio of."""
-    film = f" {mixed.lambda_ratio * mixed.Sq_nm:.4g} nm" if mixed.lambda_ratio else ""
+    film = f" {mixed.lambda_ratio * mixed.Sq_nm:.4g} nm" if mixed.lambda_ratio is not None else ""
     return f"smooth film of the formula{film} over Sq {mixed.Sq_nm:.4g} nm"
 
 

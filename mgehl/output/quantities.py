@@ -120,8 +120,9 @@ def with_means(result):
             _put_at(result, ALSO_AT[name], mean["value"])
     passing, Sq = told_at(result, "time.Sq_nm"), told_at(result, "mixed.Sq_nm")
     if means and passing and Sq:
-        film = result["mixed"]["lambda_ratio"] * Sq
-        result["mixed"] |= {"lambda_ratio": film / passing, "Sq_nm": passing}
+        film = result["mixed"]["lambda_ratio"] * Sq  # by a speed and a load that stay
+        ratio = None if told_at(result, "time.whole") else film / passing
+        result["mixed"] |= {"lambda_ratio": ratio, "Sq_nm": passing}
     return result
 
 

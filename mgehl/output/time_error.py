@@ -55,9 +55,10 @@ def time_error(result, problem, scene, asked, progress, beside):
 
 def from_a_start(error, start, gone):
     """The `TimeError` of a run that begins with the film of a `start`, a `Result` or None, and has gone so
-    many passages. The coarser grid begins with the same film: until the first passage has gone, the start's
-    bands are added. What has no band in the start has none."""
-    if start is None or gone >= 1.0:
+    many passages. The coarser grid begins with the same film: of what lies within the first passage, the
+    start's bands are added. What has no band in the start has none."""
+    in_first = min(1.0, 2.0 - gone)  # of the last passage
+    if start is None or not (error.whole or in_first > 0.0):
         return error
     told = plain_result(start)
     central, of_start = told_at(told, QUANTITIES["central_film_nm"].band), {}
@@ -65,12 +66,18 @@ def from_a_start(error, start, gone):
         missing = {"mean_gap_nm": central} | dict.fromkeys(SHARES, 0.0)  # of smooth bodies
         of_start[name] = told_at(told, QUANTITIES[name].band) or missing.get(name)
 
-    def added(bands):
-        return {name: half + of_start[name] for name, half in bands.items() if of_start[name] is not None}
+    def added(bands, part):
+        if part <= 0.0:
+            return bands
+        known = {name: half for name, half in bands.items() if of_start[name] is not None}
+        return {name: half + part * of_start[name] for name, half in known.items()}
 
     begun = "the run that it starts from"
     how = f"{error.how}; with those of {begun}" if central else f"{begun} has none"
-    return replace(error, how=how, whole=added(error.whole), at_the_end=added(error.at_the_end))
+    return replace(
+        error, how=how, means=added(error.means, in_first), whole=added(error.whole, 1.0 / max(gone, 1.0)),
+        at_the_end=added(error.at_the_end, float(gone < 1.0)),
+    )  # fmt: skip
 
 
 def _without(columns, error):

@@ -68,7 +68,12 @@ BESIDE = {-1: -2, 0: 1}
 
 
 def flows_out_whole(problem, state):
-    """Whether the film leaves the domain without a cavity, as under an ambient pressure (collective)."""
+    """Whether the film leaves the domain without a cavity, as under an ambient pressure (collective).
+
+    Without one it tears behind: a wave that passes the last nodes only shuts its cavity there.
+    """
+    if problem.scheme.cavitation and problem.contact.tears_at >= 0.0:
+        return False
     grid, (column, line) = problem.grid, (BESIDE[outlet] for outlet in outlets(problem))
     torn = state.status == CAVITATED
     lines = np.arange(grid.first, grid.last) == line % grid.mesh.ny

@@ -54,7 +54,9 @@ def test_a_start_s_band_is_added_until_a_passage_has_gone():
     start = make_dataclass("Start", ["error"])({"central_nm": 1.4, "minimum_nm": None})
     there = from_a_start(found, start, 0.5).at_the_end
     assert there["central_film_nm"] == there["mean_gap_nm"] == found.at_the_end["central_film_nm"] + 1.4
-    assert "minimum_film_nm" not in there and from_a_start(found, start, 1.0) is found
+    assert "minimum_film_nm" not in there and from_a_start(found, start, 2.0) is found
+    later, name = from_a_start(found, start, 1.75), "central_film_nm"
+    assert later.at_the_end == found.at_the_end and later.means[name] == found.means[name] + 0.35
 
 
 def test_the_mean_load_on_contact_that_opens_has_no_band():

@@ -55,8 +55,7 @@ class TestSolveFrom:
         "another domain": (FILM | {"motion": {"speed": 1.0}},
                            {"grid": {"x": [-2.2, 1.4], "y": [-1.7, 1.7]}}),
         "another speed": (FILM, {"motion": {"speed": 0.6}}),
-        "oil of another pressure around it": (FILM | {"contact": {"ambient_pressure": 2e7}},
-                                              {"contact": {"ambient_pressure": 5e6}}),
+        "ambient": (FILM | {"contact": {"ambient_pressure": 2e7}}, {"contact": {"ambient_pressure": 5e6}}),
         "a line": (LINE, {}),
         "contact": (DRY, {}),
     }  # fmt: skip
