@@ -8,7 +8,6 @@ CITATION = (ROOT / "CITATION.cff").read_text()
 
 
 def said(key):
-    """What CITATION.cff says under a key, wherever it says it at the left margin."""
     return re.findall(rf"^{key}: (.+)$", CITATION, re.MULTILINE)
 
 

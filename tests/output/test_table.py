@@ -88,9 +88,8 @@ def test_a_run_in_time_is_told_by_its_means():
     assert told.result["error"]["reason"] == "of an instant"
     assert (told.result["moes_film"], told.result["mixed"]["lambda_ratio"]) == (None, 6.0)
     assert [of_what(each) for each in (told.result, {"time": {"means": {}}}, {})] == [PASSAGE, INSTANT, ""]
-    assert all(
-        with_means(instant | t) == instant | t for t in ({}, {"time": None}, {"time": {"means": {}}})
-    )
+    for time in ({}, {"time": None}, {"time": {"means": {}}}):
+        assert with_means(instant | time) == instant | time
 
 
 def test_columns_without_room_are_drawn_of_rows_that_have_something_there():
