@@ -115,13 +115,13 @@ def with_means(result):
     for name, mean in means.items():
         found = QUANTITIES[name]
         _put_at(result, found.path, mean["value"])
-        _put_at(result, found.band, of_a_mean(mean["between_passages"], bands.get(name)))
+        _put_at(result, found.band, of_a_mean(mean.get("between_passages"), bands.get(name)))
         if name in ALSO_AT:
             _put_at(result, ALSO_AT[name], mean["value"])
     passing, Sq = told_at(result, "time.Sq_nm"), told_at(result, "mixed.Sq_nm")
     if means and passing and Sq:
-        film = result["mixed"]["lambda_ratio"] * Sq  # by a speed and a load that stay
-        ratio = None if told_at(result, "time.whole") else film / passing
+        film, changes = result["mixed"]["lambda_ratio"] * Sq, told_at(result, "time.whole")
+        ratio = None if changes else film / passing  # its film is that of the last speed and load
         result["mixed"] |= {"lambda_ratio": ratio, "Sq_nm": passing}
     return result
 

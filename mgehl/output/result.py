@@ -78,7 +78,7 @@ class HertzResult:
 @dataclass(frozen=True)
 class Mean:
     """A mean over the last passage, and its difference from that over the one before, None where there was
-    but one. That tells nothing of grid and steps: `TimeError` does."""
+    but one, and in older results. That tells nothing of grid and steps: `TimeError` does."""
 
     value: float
     between_passages: float | None = None

@@ -55,8 +55,9 @@ def time_error(result, problem, scene, asked, progress, beside):
 
 def from_a_start(error, start, gone):
     """The `TimeError` of a run that begins with the film of a `start`, a `Result` or None, and has gone so
-    many passages. The coarser grid begins with the same film: of what lies within the first passage, the
-    start's bands are added. What has no band in the start has none."""
+    many passages. The coarser grid begins with the same film, and learns nothing of its error in the first
+    passage: there the start's bands are added, about a mean by the part of its passage that lies in the
+    first. What has no band in the start has none."""
     in_first = min(1.0, 2.0 - gone)  # of the last passage
     if start is None or not (error.whole or in_first > 0.0):
         return error

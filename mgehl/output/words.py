@@ -3,7 +3,7 @@
 from mgehl.output.digits import pressure_words, with_band
 from mgehl.output.dry_error import no_band as no_dry_band
 from mgehl.output.film_error import NOT_ASKED
-from mgehl.output.film_words import band_words, films_words, heating_words, thinning_words
+from mgehl.output.films_in_words import band_words, films_words, heating_words, thinning_words
 from mgehl.output.friction_result import friction_lines
 from mgehl.output.mixed_words import filling_words, mixed_lines
 from mgehl.output.resolution import (

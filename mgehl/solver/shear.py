@@ -70,7 +70,8 @@ BESIDE = {-1: -2, 0: 1}
 def flows_out_whole(problem, state):
     """Whether the film leaves the domain without a cavity, as under an ambient pressure (collective).
 
-    Without one it tears behind: a wave that passes the last nodes only shuts its cavity there.
+    Without such a pressure every film tears behind the contact. A wave that passes the last nodes may
+    shut the cavity there, but not for long.
     """
     if problem.scheme.cavitation and problem.contact.tears_at >= 0.0:
         return False

@@ -146,7 +146,7 @@ def points_of(config, axes, both_ways=False):
     if prod(len(axis.values) for axis in axes) > MOST_POINTS:
         raise ConfigError(f"--over: has more than {MOST_POINTS} points")
     if both_ways and config.is_in_time:
-        raise ConfigError("--both-ways: runs in time (time.end) begin anew each: the way back is the same")
+        raise ConfigError("--both-ways: every run in time (time.end) begins anew, so both ways are one")
     path = [(place, 0) for place in _snake([len(axis.values) for axis in axes])]
     path += [(place, 1) for place, _ in path[::-1]] if both_ways else []
     values = [{axis.key: axis.values[k] for axis, k in zip(axes, place, strict=True)} for place, _ in path]

@@ -7,7 +7,7 @@ from mgehl.errors import UserError
 from mgehl.kinds import KINDS
 from mgehl.kinds.loaded import speed_words
 from mgehl.kinds.time import of_first_load
-from mgehl.output.film_words import films_words
+from mgehl.output.films_in_words import films_words
 from mgehl.output.laws import portable
 from mgehl.output.mixed_words import mixed_note
 

@@ -20,7 +20,7 @@ from mgehl.model.sources import SOURCES
 from mgehl.output.advice import beside_bands
 from mgehl.output.digits import pressure_words, with_band
 from mgehl.output.files import plain_result
-from mgehl.output.film_words import band_words, digits_of, heating_words
+from mgehl.output.films_in_words import band_words, digits_of, heating_words
 from mgehl.output.friction_result import coefficient_words, friction_lines
 from mgehl.output.mixed_words import gap_band_words, mean_gaps
 from mgehl.output.pictures import style
