@@ -566,7 +566,7 @@ def test_frames_have_the_heights_where_they_are_and_what_cavities_hold():
         ({"motion.speed": [(0, 1), (1, 1)], "time.end": 2.0}, "must cover 0 to 2"),
         ({"motion.speed": 0.0}, "must be at least 1e-12"),
         ({"motion.speed": 1e-15, "time.end": 1.0}, "must be at least 1e-12"),
-        ({"motion.speed": 0.0, "time.end": 1.0, "time.until": "settled"}, "0 throughout"),
+        ({"motion.speed": 0.0, "time.end": 1.0, "time.until": "settled"}, "is 0 at time.end"),
         ({"motion.speed": [(0, -1), (1, 1)], "time.end": 1.0}, "begins below 0"),
         ({"motion.speed": [(0, 1), (1, -1)], "time.end": 1.0, "grid.x": (-3.0, 1.1)}, "must end beyond"),
         ({"contact.load": [(0, 1), (1, 0)], "time.end": 1.0}, "must stay above 0"),

@@ -68,13 +68,32 @@ def is_table(key, value):
 
 
 def course(key, value):
-    """The `Course` of a key: of a table by the units in its heading, else in SI units."""
-    found = course_of(value)
-    if not isinstance(found, Table):
+    """The `Course` of a key: of a table by the names and units in its heading, else in SI units."""
+    found, name = course_of(value), f"{key} = {value!r}"
+    if not isinstance(found, Table) or len(heading := found.heading) < 2:
         return found
-    units = zip(found.heading, ("s", ONLY_IN_TIME[key]), strict=False)
-    scale = tuple(_in_si(f"{key} = {value!r}", *each) for each in units)
-    return replace(found, scale=scale) if len(scale) == 2 else found
+    column = _column_of(name, heading, key) if len(heading) > 2 else 1
+    units = (heading[0], "s"), (heading[column], ONLY_IN_TIME[key])
+    scale = tuple(_in_si(name, *each) or 1.0 for each in units)
+    return replace(found, scale=scale, column=column)
+
+
+def _column_of(name, heading, key):
+    """Which of several columns is that of a key: the only one in its unit, or of its name. Raises
+    ConfigError."""
+    in_unit, named, own_name = [], [], key.rpartition(".")[2].split("_")[0]
+    for k, words in enumerate(heading[1:], 1):
+        try:
+            in_unit += [k] if _in_si(name, words, ONLY_IN_TIME[key]) else []
+        except ConfigError:
+            continue
+        named += [k] if words.lower().startswith(own_name) else []
+    for found in (in_unit, named):
+        if len(found) == 1:
+            return found[0]
+    columns = ", ".join(map(repr, heading[1:]))
+    must = f"must be one in {ONLY_IN_TIME[key]}, or one whose name begins with {own_name!r}"
+    raise ConfigError(f"{name}: which of its columns {columns} is meant? {must}")
 
 
 def own_courses(config):
@@ -98,7 +117,7 @@ def with_recorded(tables, courses):
 
 
 def _in_si(name, heading, unit):
-    """The unit that a column's heading tells, in SI; 1 where it is but a name. Raises ConfigError."""
+    """The unit that a column's heading tells, in SI; None where it is but a name. Raises ConfigError."""
     words = unit_words(heading)
     is_name, tells = heading in words and "/" not in heading, "tells no unit of its column"
     for found in words:
@@ -112,7 +131,7 @@ def _in_si(name, heading, unit):
         except ConfigError:
             continue
     if is_name:
-        return 1.0
+        return None
     raise ConfigError(f"{name}: its heading {heading!r} {tells}; must be such as [{unit}]")
 
 
@@ -147,6 +166,13 @@ def stands_still(config):
     return config.is_in_time and config.moes.M is None and not any(range_of(config, "motion.speed"))
 
 
+def _ends_at_rest(config):
+    """Whether surfaces stand still when a run in time ends."""
+    if not config.is_in_time or config.moes.M is not None:
+        return False
+    return course("motion.speed", config.motion.speed).value(config.time.end) == 0.0
+
+
 def check_motion(config):
     """Raise ConfigError where a steady film has no motion."""
     speed = config.motion.speed
@@ -163,12 +189,14 @@ def check_courses(config):
     step, end = config.time.step, config.time.end
     for key in ONLY_IN_TIME:
         value = config.value(key)
-        if isinstance(value, str) and (wrong := _wrong_with(key, value, end)):
+        if not isinstance(value, str):
+            continue
+        if wrong := _wrong_with(key, value, end):
             raise ConfigError(f"{key} = {value!r}: {wrong}")
-        if config.time.until == "settled" and len(set(range_of(config, key))) > 1:
-            raise ConfigError(f'time.until = "settled": must be "end" where {key} changes with time')
-    if config.time.until == "settled" and stands_still(config):
-        raise ConfigError('time.until = "settled": must be "end" where motion.speed is 0 throughout')
+        if config.time.until == "settled" and course(key, value).stays_from(end) >= end:
+            raise ConfigError(f'time.until = "settled": must be "end" where {key} changes until time.end')
+    if config.time.until == "settled" and _ends_at_rest(config):
+        raise ConfigError('time.until = "settled": must be "end" where motion.speed is 0 at time.end')
     if end is None:
         if config.time.until == "settled":
             raise ConfigError('time.until = "settled": means nothing without time.end')

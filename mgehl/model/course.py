@@ -72,6 +72,11 @@ class Course:
         """By how much it leaves that line."""
         return 0.0
 
+    def stays_from(self, end):
+        """Time from which it is known to stay until `end`; `end` where it is not."""
+        least, most = self.range(end)
+        return 0.0 if least == most else end
+
     def times(self, end):
         """Times from 0 to `end` between which it does not turn, as far as it is known."""
         return tuple(map(float, np.linspace(0.0, end, SAMPLES)))
@@ -92,13 +97,15 @@ class Constant(Course):
 
 @dataclass(frozen=True)
 class Table(Course):
-    """A file of two columns, times that rise and values: straight lines between them.
+    """A file of times that rise and values: straight lines between them. The values are in its second
+    column, the only one besides, or where its `column` is given in that.
 
     `scale` takes them to s and SI units. Raises FileError where the file is none, or ends before `end`.
     """
 
     path: str
     scale: tuple = (1.0, 1.0)
+    column: int | None = None
 
     @cached_property
     def _file(self):
@@ -109,7 +116,7 @@ class Table(Course):
 
     @property
     def heading(self):
-        """Words over the two columns; none where there are none."""
+        """Words over the columns; none where there are none."""
         return self._file.heading or []
 
     @property
@@ -121,10 +128,11 @@ class Table(Course):
     def _columns(self):
         values, lines = self._file.values, self._file.lines
         rows, columns = values.shape
-        if columns != 2:
+        if columns != 2 and not self.column:
             raise FileError(self.path, f"must have two columns, times and values; has {columns}")
         if rows < 2:
             raise FileError(self.path, f"has {rows} rows; a table of time has two or more")
+        values = values[:, [0, self.column or 1]]
         holes = np.flatnonzero(~np.isfinite(values).all(axis=1))
         if holes.size:
             raise FileError(self.path, f"line {lines[holes[0]]} has no two numbers")
@@ -161,6 +169,12 @@ class Table(Course):
 
     def kinks(self):
         return tuple(self._columns[0])
+
+    def stays_from(self, end):
+        times = self.times(end)
+        values = self.values_at(times)
+        others = np.flatnonzero(values != values[-1])
+        return times[others[-1] + 1] if others.size else 0.0
 
     def off(self, begin, end, until):
         times, values = self._columns

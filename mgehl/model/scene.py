@@ -137,6 +137,11 @@ class Scene:
         kinks = sorted({t for t in (*self.speed.kinks(), *self.angle.kinks()) if begin < t < end})
         return sum(integral(self.velocity, *ends) for ends in pairwise([begin, *kinks, end]))
 
+    @cached_property
+    def stays_from(self):
+        """Time from which speed, load and direction are known to stay."""
+        return max(each.stays_from(self.end) for each in (self.speed, self.load, self.angle))
+
     def kinks(self):
         """Times at which something changes suddenly: a step in time ends there."""
         return *self.speed.kinks(), *self.load.kinks(), *self.angle.kinks()

@@ -211,10 +211,11 @@ def over_all(rows, scene):
 
 
 def have_settled(rows, scene):
-    """Whether the means of gap and load on solids have settled after `FEWEST` passages: what they still
-    change by, if they go on as in the last three, is little."""
+    """Whether the means of gap and load on solids have settled after `FEWEST` passages in which speed, load
+    and direction stay: what they still change by, if they go on as in the last three, is little."""
     gone = passed(rows, scene)
-    if gone[-1] < FEWEST:
+    times = [row["time_s"] for row in rows]
+    if gone[-1] - np.interp(scene.stays_from, [0.0, *times], [0.0, *gone]) < FEWEST:
         return False
     gap, solids = (_of_passages(rows, gone, name, 3) for name in ("mean_gap_nm", "load_on_solids"))
     return _left(*gap) <= SETTLED * gap[-1] and _left(*solids) <= SETTLED

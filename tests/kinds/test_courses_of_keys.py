@@ -37,6 +37,15 @@ def test_each_key_has_its_unit(tmp_path):
     assert read(tmp_path, "t;angle [rad]", "motion.angle").value(0.0) == pytest.approx(18000.0 / np.pi)
 
 
+def test_a_table_of_several_columns_has_one_in_the_unit_of_the_key_or_of_its_name(tmp_path):
+    rows = "0;100;2;\n1000;300;4;7\n"
+    assert read(tmp_path, "t [s];v [mm/s];F [N];T", "contact.load", rows).value(1000.0) == 4.0
+    assert read(tmp_path, "t;load;speed;rpm", rows=rows).value(0.0) == 2.0
+    for heading in ("t;v;F;T", "t;v [m/s];u [m/s];T [K]", "t;a [N];b [N];c [N]"):
+        with pytest.raises(ConfigError, match="which of its columns .* must be one in m/s, or one whose"):
+            read(tmp_path, heading, rows=rows)
+
+
 @pytest.mark.parametrize("heading", ["t;alpha", "t;pi", "t;count", "t;angle"])
 def test_a_name_of_an_angle_is_no_unit(tmp_path, heading):
     """Alpha was the fine-structure constant: 90 degrees were 37.6."""

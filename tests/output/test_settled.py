@@ -1,10 +1,13 @@
 """When means over passages count as settled."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import mgehl
 from mgehl.kinds import checked_case
+from mgehl.model.course import Table
 from mgehl.output.series import have_settled
 
 
@@ -26,6 +29,13 @@ def rows(scene, passages, gap):
 def test_waves_that_pass_have(scene):
     assert have_settled(rows(scene, 4, lambda k: 100.0 + 30.0 * np.sin(0.2 * np.pi * k)), scene)
     assert not have_settled(rows(scene, 2, lambda k: 100.0), scene)
+
+
+def test_passages_count_from_when_the_load_stays(scene, tmp_path):
+    (tmp_path / "load.csv").write_text("0,20\n0.001,30\n0.002,40\n1,40\n")
+    rising = replace(scene, load=Table(str(tmp_path / "load.csv")))
+    assert rising.stays_from == 0.002
+    assert [have_settled(rows(rising, count, lambda k: 100.0), rising) for count in (4, 5)] == [False, True]
 
 
 def test_a_film_that_approaches_its_limit_slowly_has_not(scene):
