@@ -164,7 +164,7 @@ def test_after_a_reversal_the_bath_comes_in_and_the_film_is_that_of_its_mirror(c
     oil = {"lubricant.viscosity": 0.04, "lubricant.pressure_viscosity": 20e-9}
     grid = PAPERS | {"grid.nodes": 129, "grid.x": "auto"}
     del grid["grid.y"]
-    told = line | oil | grid | {"motion.speed": motion, "time.end": 2.5e-3}
+    told = line | oil | grid | {"motion.speed": motion, "time.end": 2.5e-3, "time.step": 8e-6}
     turned = mgehl.solve(mgehl.load(None, told))
     film = column(turned, "central_film_nm")
     assert film.min() < 0.6 * film[0] and film[-1] == pytest.approx(film[0], rel=0.01)

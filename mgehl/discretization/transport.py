@@ -12,6 +12,11 @@ import numpy as np
 STEEPEST = 3.0
 """Content at a face over that of the emptier of its cells: with less, no parabola is negative."""
 
+WEIGHTS = {-2: 2.0, -1: -13.0, 0: 47.0, 1: 27.0, 2: -3.0}
+"""Of cells, counted from one towards the face whose content they tell, in sixtieths (Suresh, Huynh 1997).
+What both sides of a face tell differs by the fifth difference: a value that is the same for both leaves
+waves of two cells as they are in short steps."""
+
 
 @dataclass(frozen=True)
 class Shift:
@@ -56,16 +61,17 @@ def _split(cells):
 def _last_part(m, cells, part):
     """What the last `part` of some cells holds, before their ends along: (..., cells)."""
     here = m[..., cells]
-    begin, end = _at_face(m, cells), _at_face(m, cells + 1)
+    begin, end = _at_end(m, cells, -1), _at_end(m, cells, 1)
     bulge = 6.0 * here - 3.0 * (begin + end)
     return part * (end - 0.5 * part * (end - begin - (1.0 - 2.0 / 3.0 * part) * bulge))
 
 
-def _at_face(m, cells):
-    """Content at the face before some cells, of fourth order, from nothing to `STEEPEST`."""
-    before, here = m[..., cells - 1], m[..., cells]
-    value = (7.0 * (before + here) - m[..., cells - 2] - m[..., cells + 1]) / 12.0
-    return np.clip(value, 0.0, STEEPEST * np.maximum(np.minimum(before, here), 0.0))
+def _at_end(m, cells, side):
+    """Content at the face before some cells (-1) or behind them (1), of fifth order as these cells and two
+    neighbours on either side tell it, from nothing to `STEEPEST`."""
+    here, beside = m[..., cells], m[..., cells + side]
+    value = sum(weight * m[..., cells + side * k] for k, weight in WEIGHTS.items()) / 60.0
+    return np.clip(value, 0.0, STEEPEST * np.maximum(np.minimum(beside, here), 0.0))
 
 
 def moved(values, cells):

@@ -67,10 +67,10 @@ LONGEST, LONGEST_ROUGH = 4.0, 2.0
 """Cells that surfaces may go in a step: smooth ones, by 8 a steady film of 127 nm walks off to 210; heights
 that move: waves of 80 um on 65 nodes have a mean gap of 155 nm by one cell, 151 by 2.5, 215 by 5."""
 
-OF_INLET, LEAST_CELLS = 0.4, 0.5
+OF_INLET, LEAST_CELLS = 0.2, 0.25
 """Part of the inlet's cells that the mean surface may go in a step, and cells that it always may. A step of
-c cells makes a film from an inlet of n cells thinner by a fourth of (c/n)^2 (balls on 65 and 129 nodes, c/n
-of 0.2 to 0.6); by 1.8 it was two thirds thicker."""
+c cells makes a film from an inlet of n cells thinner by a fourth to a half of (c/n)^2 (balls on 65 and 129
+nodes, lines on 129 and 257, c/n of 0.02 to 0.6); by 1.8 it was two thirds thicker."""
 
 
 @dataclass(frozen=True)

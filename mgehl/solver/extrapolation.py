@@ -11,6 +11,18 @@ def weights_at(nodes, point):
     )
 
 
+def curvature(times, values):
+    """Half the second derivative of a parabola through the values at three times."""
+    first, second, third = times
+    slopes = (values[1] - values[0]) / (second - first), (values[2] - values[1]) / (third - second)
+    return (slopes[1] - slopes[0]) / (third - first)
+
+
+def alike(one, other):
+    """What two arrays have in common: the smaller of each pair, nothing where their signs differ."""
+    return np.where(one * other > 0.0, np.where(np.abs(one) < np.abs(other), one, other), 0.0)
+
+
 def fading(P, standing, t, nothing):
     """The pressures `P` that a parabola leads to at a time `t`; where it falls by more than half to
     `nothing`, those that fade as they did before. Peaks that leave the contact would be gone at once, and

@@ -17,7 +17,7 @@ from mgehl.discretization.storage import content
 from mgehl.discretization.transport import Shift, moved
 from mgehl.solver.beyond import Beyond
 from mgehl.solver.carry import Carried, Reference, Transport
-from mgehl.solver.extrapolation import fading, weights_at
+from mgehl.solver.extrapolation import alike, curvature, fading, weights_at
 from mgehl.solver.journal import NOTHING_KEPT
 from mgehl.solver.outcome import Outcome
 from mgehl.solver.pace import HALVINGS, Pace
@@ -276,12 +276,17 @@ class March:
         return last + steps * moved(last - before, shift.along_x)
 
     def _error(self, standing, t, state):
-        """What the pressures of a step are off a straight line in time, over themselves; rms."""
-        if len(standing.times) < 2:
+        """What the pressures of a step are off a straight line in time, over themselves; rms. Of what a
+        node tells that counts which the step before told, too: a spike that jumps on to the next node jumps
+        in any step."""
+        times, P = [*standing.times, t], [*standing.P, state.P]
+        if len(times) < 3:
             return 0.0
-        line = np.tensordot(weights_at(standing.times[-2:], t), standing.P[-2:], 1)
-        rms = self._problem.rms
-        return rms(state.P - line) / max(rms(state.P), 1e-300)
+        bent, rms = curvature(times[-3:], P[-3:]), self._problem.rms
+        if len(times) > 3:
+            bent = alike(bent, curvature(times[-4:-1], P[-4:-1]))
+        off = (t - times[-2]) * (t - times[-3]) * bent
+        return rms(off) / max(rms(state.P), 1e-300)
 
     def _remember(self, standing):
         """Take the present state among those that a guess is made of."""

@@ -103,7 +103,7 @@ def _row(title, found):
     rows, time = found.rows or [{}], found.result.time
     films = {name: np.array([row.get(f"{name}_film_nm", np.nan) for row in rows]) for name in FILMS}
     cells = {
-        f"{name} film first / least / last nm": f"{film[0]:.1f} / {film.min():.1f} / {film[-1]:.1f}"
+        f"{name} film first / least / last nm": f"{film[0]:.1f} / {film.min():z.1f} / {film[-1]:.1f}"
         for name, film in films.items()
     }
     return {"course": title, "steps": f"{time.steps if time else 0}", **cells, **_closes(found)}
