@@ -1,23 +1,14 @@
 import numpy as np
 import pytest
-from mpi4py import MPI
 
-from mgehl.config import config_from_tables
 from mgehl.discretization.contact_law import BoundaryFilm
 from mgehl.discretization.influence import influence_coefficients
 from mgehl.discretization.rows import PRESSURE
 from mgehl.discretization.scheme import Scheme
 from mgehl.discretization.status import CAVITATED, CONTACT, LUBRICATED
-from mgehl.kinds import case_of
-from mgehl.solver.beginning import begin
-from mgehl.solver.elimination import FEW, WHOLE, Elimination, windows_of
-from mgehl.solver.from_config import set_up
+from mgehl.solver.elimination import FEW, WHOLE, windows_of
 from mgehl.solver.problem import State
-from mgehl.solver.settings import NewtonSettings
-from mgehl.solver.task import Task
 from mgehl.solver.window import Window
-from mgehl.studies.mixed import draw
-from mgehl.studies.study import merged
 
 
 def moved(window, state, name, node, by):
@@ -63,24 +54,6 @@ def test_the_jacobian_of_a_window_is_the_derivative_of_its_rows(make_problem, ro
         found.append(np.subtract(*ends) / 2e-6)
     expected = window._jacobian(at, unknown, contact, 0.0)
     assert np.transpose(found) == pytest.approx(expected, rel=1e-5, abs=1e-6 * np.abs(expected).max())
-
-
-def test_nodes_that_were_moved_come_back():
-    """With the others as they are in an answer these have the answer's pressure."""
-    tables = merged(draw(44, 4099)[43].tables, {"grid": {"nodes": 65}, "solver": {"error": False}})
-    parts = set_up(case_of(config_from_tables(tables)))
-    hierarchy = parts.hierarchy(MPI.COMM_SELF)
-    problem, outcome = begin(Task(hierarchy, parts.contact, parts.settings))
-    answer = outcome.state
-    j, i = np.argwhere((answer.status == LUBRICATED) & (answer.P > 0.5))[20]
-    ((box, free),) = windows_of(np.where(np.arange(answer.P.size) == j * 65 + i, 1.0, 0.0).reshape(65, 65))
-    elimination = Elimination(problem, NewtonSettings(by_film=True))
-    window = Window(problem, elimination._influence(len(free)), free, problem.feeding(answer.status)[box])
-    part = State(H0=answer.H0, **{name: getattr(answer, name)[box].copy() for name in WHOLE})
-    there, by = (j - box[0].start, i - box[1].start), 0.1 * answer.P[j, i]
-    found = elimination._solved(window, moved(window, part, "P", there, by), in_turn=False)
-    assert np.abs(found.P - part.P).max() < 1e-2 * by
-    hierarchy.destroy()
 
 
 def test_windows_are_around_few_nodes_alone():
