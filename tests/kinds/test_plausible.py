@@ -156,7 +156,7 @@ USUAL = "lubricant.conductivity is not given: flash temperatures take 0.14 W/(m 
       COATED | {"body_2.material": "aluminium", "coating.substrate_modulus": 206e9}, False),
      (USUAL, BOTH | SLIDES, True), (USUAL, BOTH | SLIDES | {"lubricant.conductivity": 0.13}, False),
      (USUAL, SLIDES, False),
-     ("cells in a step", SHORT | {"time.step": "20 us"}, False),
+     ("cells in a step", SHORT | {"time.step": "10 us"}, False),
      ("cells in a step", SHORT | {"time.step": "100 us"}, True),
      ("of a cell in a step", MOVES | {"time.step": "20 us"}, False),
      ("of a cell in a step", MOVES | {"time.step": "2 us"}, True),
