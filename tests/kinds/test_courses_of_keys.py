@@ -27,11 +27,8 @@ def test_a_heading_tells_units(tmp_path, heading, end, value):
     assert found.value(end) == pytest.approx(value)
 
 
-def test_a_heading_may_be_separated_otherwise(tmp_path):
-    assert read(tmp_path, "t (ms), v", rows="0 100\n1000 300\n").kinks() == pytest.approx((0.0, 1.0))
-
-
 def test_each_key_has_its_unit(tmp_path):
+    assert read(tmp_path, "t (ms), v", rows="0 100\n1000 300\n").kinks() == pytest.approx((0.0, 1.0))
     assert read(tmp_path, "t;F [kN]", "contact.load").value(0.0) == 1e5
     assert read(tmp_path, "t;F [N/mm]", "contact.load_per_length").value(0.0) == 1e5
     assert read(tmp_path, "t;angle [rad]", "motion.angle").value(0.0) == pytest.approx(18000.0 / np.pi)
