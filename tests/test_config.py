@@ -76,7 +76,6 @@ def test_settings_are_toml_or_numbers_or_else_plain_strings(setting, value):
 MISTAKES = [
     ("contact.load=0", "contact.load = 0: ", "a number in N", "at least 1e-06"),
     ("motion.speed=nan", "motion.speed = nan: ", "a number in m/s"),
-    ("motion.speed=[1, 2]", "motion.speed = [1, 2]: ", "a number in m/s"),
     ("motion.speed=7.5 mm", "motion.speed = '7.5 mm': ", "wrong unit", '"1 m/s"'),
     ("motion.speed='7.5'", "motion.speed = '7.5': ", "has no unit", '"1 m/s"'),
     ("motion.speed=fast", "motion.speed = 'fast': ", "not understood", '"1 m/s"'),
@@ -91,18 +90,15 @@ MISTAKES = [
     ("grid.nodes=100", "grid.nodes = 100: ", "2^k + 1", "65 or 129"),
     ("grid.x=[-1.9]", "grid.x = [-1.9]: ", "two numbers", "first < -1", "last > 1"),
     ('grid.y=["a", 2]', "grid.y = ['a', 2]: ", "two numbers"),
-    ("grid.y=wide", "grid.y = 'wide': ", '"auto"', "two numbers"),
     ("contact.kind=roller", "contact.kind = 'roller': ", "must be one of point, line, wedge"),
     ('wedge.blocked_exit="true"', "wedge.blocked_exit = 'true': ", "true or false"),
     ("relaxation.omega=0", "relaxation.omega = 0: ", "above 0", "at most 1"),
     ("relaxation.load=1", "relaxation.load = 1: ", "unknown key", "did you mean contact.load?"),
     ("discretization.couette=4B", "discretization.couette = '4B': ", "1B, 2B, 2C, 3B, 3L, S1B, S2C"),
-    ("grid.nodez=129", "grid.nodez = 129: ", "unknown key", "did you mean grid.nodes?"),
     ("gird.nodes=129", "gird = {'nodes': 129}: ", "unknown section", "did you mean grid?"),
     ("qqqq.w=1", "qqqq = {'w': 1}: ", "unknown section",
      "known are contact, coating, wedge, lubricant, motion"),
     ("grid.nodes", "--set grid.nodes: ", "must be section.key=value"),
-    ("grid.=129", "--set grid.=129: ", "must be section.key=value"),
 ]  # fmt: skip
 
 

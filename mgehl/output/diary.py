@@ -46,7 +46,7 @@ class Diary:
         """Keep the fields of an instant in the user's axes and units; `heights` in m, or None."""
         Pa, m = self._units
         fields = {"pressure": Pa * state.P, "film": m * state.H, "fluid_pressure": Pa * state.p,
-                  "filling": state.filling, "heights": heights, "status": state.status}  # fmt: skip
+                  "filling": state.full_part, "heights": heights, "status": state.status}  # fmt: skip
         whole = {name: self._grid.gather(each) for name, each in fields.items() if each is not None}
         if whole["film"] is not None:
             kinds = {"status": "i1"}

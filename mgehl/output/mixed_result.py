@@ -75,7 +75,7 @@ def mixed_result(problem, state):
     if contact.surface is None:
         return None
     heights = problem.heights - problem.hertz.contact.mean_height
-    parts = state.P, state.H, state.status, state.p, state.filling, heights
+    parts = state.P, state.H, state.status, state.p, state.full_part, heights
     kept, load = problem.scheme.contact_law.contact_gap, problem.load_share
     return grid.on_first(lambda *whole: measured(contact, grid.mesh, Fields(*whole), kept, load), *parts)
 

@@ -9,7 +9,7 @@ from mgehl.output.solution import Solution
 
 def solution_of(case, parts, problem, state, rows, result, maps=None):
     """The `Solution` of a final state (collective)."""
-    fields = state.P, state.H, state.status, state.p, state.filling, problem.heights
+    fields = state.P, state.H, state.status, state.p, state.full_part, problem.heights
     whole = Fields(*fields, **(maps or {})).gathered(problem.grid)
     found = Solution(case.config, parts.contact, problem.grid.mesh, whole, rows, result, state.H0)
     return in_users_axes(found, parts.frame, case)

@@ -36,11 +36,17 @@ class State(Kept):
     p: np.ndarray | None = None
     """The fluid's own pressure: P but for contact, where solids carry the rest. None: P everywhere."""
     filling: np.ndarray | None = None
-    """The part of the gap above the layers that cavities hold fluid in; None: all of it."""
+    """The part of the gap above the layers that cavities hold fluid in, of other nodes whatever they had as
+    cavities; None: all of it."""
 
     def __post_init__(self):
         self.p = self.P.copy() if self.p is None else self.p
         self.filling = np.ones(np.shape(self.P)) if self.filling is None else self.filling
+
+    @property
+    def full_part(self):
+        """The part of the gap above the layers that holds fluid: 1 but in cavities."""
+        return np.where(self.status == CAVITATED, self.filling, 1.0)
 
     def copy(self):
         arrays = (self.H, self.status, self.p, self.filling)

@@ -87,8 +87,7 @@ def shear_of_wake(problem, state):
     grid, contact, law = problem.grid, problem.contact, problem.scheme.contact_law
     mesh, (end_x, end_y) = as_the_motion_goes(problem), outlets(problem)
     x, y = contact.x_scale * mesh.X[:: 1 if end_x else -1], contact.y_scale * mesh.Y[:: 1 if end_y else -1]
-    full = np.where(state.status == CAVITATED, state.filling, 1.0)
-    content = contact.film_scale * full * law.flow_gap(state.H)[0]
+    content = contact.film_scale * state.full_part * law.flow_gap(state.H)[0]
     behind = content[:, BESIDE[end_x]]
     if mesh.is_line:
         return float(wake_shear(contact, x[[end_x]], None, behind)[0])

@@ -6,12 +6,14 @@ from balance import balance
 from places import ROUGH
 
 import mgehl
+from mgehl.discretization.status import CAVITATED
 
 
 def run_of(path, **sections):
     config = mgehl.load(ROUGH, {"grid.nodes": 65, "solver.error": False, **sections})
     solution = mgehl.solve(config)
-    assert solution.result.converged
+    fields = solution.fields
+    assert solution.result.converged and (fields.filling[fields.status != CAVITATED] == 1.0).all()
     return solution.save(path)
 
 
