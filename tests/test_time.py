@@ -600,7 +600,7 @@ def test_a_file_must_reach_as_far_as_it_goes(tmp_path):
 
 def test_an_end_before_the_means_have_settled_is_told():
     moving = ROUGH | {"surface.rms": 1e-9, "time.until": "settled"}
-    assert "means over passages have not" in solved(moving, time__end=0.1 * UNIT).summary.reason
+    assert "mean gap and load on solids have not" in solved(moving, time__end=0.1 * UNIT).summary.reason
 
 
 def test_friction_beyond_the_domain_is_that_of_the_steady_state():

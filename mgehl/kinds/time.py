@@ -28,8 +28,8 @@ class TimeSection:
         above=0.0, high=0.1)
     save_every: float | None = number(None, "time after which the next step's fields are kept (unset: "
         "50 in a run)", "s", above=0.0, high=1e9)
-    until: str = word("end", "when it ends: at time.end, or before when means over passages have settled, "
-        "at a speed and a load that stay",
+    until: str = word("end", "when it ends: at time.end, or before when mean gap and load on solids "
+        "over passages have settled, at a speed and a load that stay",
         ("end", "settled"))
     # fmt: on
 

@@ -9,7 +9,7 @@ from mgehl.output.series import have_settled, row_of, title_of, write_series
 from mgehl.saying import complain
 from mgehl.solver.pace import JUST
 
-UNSETTLED = "all steps in time settled, the means over passages have not: give a later time.end"
+UNSETTLED = "all steps in time settled, mean gap and load on solids have not: give a later time.end"
 """What is said of a run that time.end cut short."""
 
 FRAMES_OF_A_RUN = 50
@@ -39,7 +39,7 @@ class Diary:
         if keys.until != "settled":
             return ""
         if have_settled(progress.rows, self._scene):
-            return "means over passages have settled"
+            return "mean gap and load on solids over passages have settled"
         return UNSETTLED if instant.t >= keys.end * (1.0 - JUST) else ""
 
     def _take_frame(self, t, state, heights):

@@ -39,6 +39,9 @@ SUDDEN = 0.3
 TRIES, NO_GAP = 3, 1e-9
 """First steps that are tried, and gap below which its change tells nothing."""
 
+NOT_THE_LAST = "all steps in time settled, the last instant does not to the last digits: "
+"""Why a run that reached its end is not converged."""
+
 LOOKS_BACK = 3
 """States that the first guess of a step is made of: a parabola in time."""
 
@@ -129,7 +132,7 @@ class March:
         self._turn(standing.t, standing.path)
         if converged and self._problem.storage is not None:
             last = self._newton.run(standing.state, tolerance=self._settings.least)
-            converged, reason = last.converged, reason if last.converged else last.reason
+            converged, reason = last.converged, reason if last.converged else NOT_THE_LAST + last.reason
             standing.state = last.state
         return Outcome(standing.state, converged, reason)
 
