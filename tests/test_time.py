@@ -394,6 +394,19 @@ def test_rough_bodies_make_no_oil(rough):
     assert np.abs(column(rough, "load_error")).max() < 1e-4
 
 
+def test_what_steps_leave_open_does_not_decide_the_load_on_solids(course):
+    """Stiff oil that is carried into contact bears all of a load: in steps that left a thousandth of what
+    they began with, solids of bodies that start from rest lost a third of it."""
+    start = {"motion.speed": course((0.0, 0.0), (5e-3, 0.03)), "time.end": 1.7e-3, "solver.error": False}
+    found = [
+        mgehl.solve(mgehl.load("configs/passing_roughness.toml").with_(start | {"time.tolerance": each}))
+        for each in (1e-3, 1e-6)
+    ]
+    loads = [column(each, "load_on_solids") for each in found]
+    assert 0.8 < loads[0][-1] < 0.95
+    assert loads[0] == pytest.approx(loads[1], abs=1e-3)
+
+
 def went_on(start, **keys):
     named = {key.replace("__", "."): value for key, value in keys.items()}
     return mgehl.solve(mgehl.load(None, BALL | named), start=start)

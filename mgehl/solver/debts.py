@@ -10,7 +10,7 @@ MOST = 0.25
 """Part of what its neighbours hold that a node takes in a round: it has four, and they four others."""
 
 ROUNDS = 50
-"""Rounds at the most: after them what is still owed is left."""
+"""Rounds at the most. What is owed then, within wide contact, is paid by all nodes: 1e-8 of the oil."""
 
 
 def paid(problem, m):
@@ -20,7 +20,16 @@ def paid(problem, m):
         if not problem.grid.count(owed > 0.0):
             break
         m = m + _payments(problem, owed, np.where(problem.boundary, 0.0, np.maximum(m, 0.0)))
-    return m
+    return _shared(problem, m)
+
+
+def _shared(problem, m):
+    """What is still owed, paid by all nodes in proportion to what they hold."""
+    inner = np.where(problem.boundary, 0.0, m)
+    owed, held = (problem.grid.sum(np.maximum(each, 0.0).sum()) for each in (-inner, inner))
+    if owed == 0.0 or held <= owed:
+        return m
+    return np.where(problem.boundary, m, np.maximum(m, 0.0) * (1.0 - owed / held))
 
 
 def _payments(problem, owed, held):

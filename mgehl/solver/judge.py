@@ -32,6 +32,11 @@ closes continuously: without it hardly half of thin-film balls without layers ar
 counts for its length: it is on its way, and its residual says little of the sets."""
 
 
+BACK_AND_FORTH = 4
+"""Steps in vain that changed no set, after which half of the next one is taken: by what it stiffens with,
+the fluid's pressure in a layer may go from far below its answer to far above, and back."""
+
+
 class SetsChange(Enum):
     """How the sets change around a step."""
 
@@ -112,6 +117,13 @@ def how_sets_change(position, by_film):
 def way_in_vain(position):
     """Steps since the residual was last clearly lower than ever before, a shortened one by its length."""
     return sum(cycle.step_length for cycle in since_lowered(position))
+
+
+def to_and_fro(position):
+    """Whether the last steps lowered no residual although they changed no set: whole steps then lead from
+    one side of an answer to the other."""
+    last = since_lowered(position)[-BACK_AND_FORTH:]
+    return len(last) == BACK_AND_FORTH and not any(cycle.changes.total for cycle in last)
 
 
 def since_lowered(position):

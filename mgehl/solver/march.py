@@ -3,7 +3,7 @@
     bodies, load, speed, oil    as they are at its end          mgehl.solver.problem.ContactProblem.turn_to
     contents                    carried along                   mgehl.solver.carry.Transport.leg
     first guess                 the states before, continued    mgehl.solver.march.March._guess
-    pressures, sets             Newton's method                 mgehl.solver.newton.Newton.run
+    pressures, sets             Newton's method                 mgehl.solver.step_solve.StepSolve.solved
 
 A step that does not settle is halved.
 """
@@ -23,15 +23,7 @@ from mgehl.solver.outcome import Outcome
 from mgehl.solver.pace import HALVINGS, Pace
 from mgehl.solver.problem import State
 from mgehl.solver.record import Kept, Record
-
-LOOSEST = 1e-4
-"""Largest residual that a step may leave, however much it begins with."""
-
-CLOSES = 5e-9
-"""Part of the oil in the domain by which a step's account may be off: half of what is promised."""
-
-FINER = 0.03
-"""Of a residual that leaves more: what is solved for then."""
+from mgehl.solver.step_solve import StepSolve
 
 SUDDEN = 0.3
 """Change of the speed in a step, over the largest one, after which nothing is known of steps before."""
@@ -102,6 +94,7 @@ class March:
         self._scene, self._problem, self._newton, self._told = scene, problem, newton, told
         self._settings, self._pace = settings, pace or Pace(scene, problem.grid.mesh, settings.step)
         self._transport, self._beyond = Transport(problem), Beyond(problem)
+        self._solve = StepSolve(problem, newton, settings)
 
     def run(self, state, path=(0.0, 0.0), reference=None, journal=NOTHING_KEPT):
         """March from a `state`, which is the march's own from now on; return the `Outcome`.
@@ -131,9 +124,9 @@ class March:
         """The `Outcome` of the last step, solved to the last digits, or of where the run was given up."""
         self._turn(standing.t, standing.path)
         if converged and self._problem.storage is not None:
-            last = self._newton.run(standing.state, tolerance=self._settings.least)
+            last = self._newton.run(standing.state.copy(), tolerance=self._settings.least)
             converged, reason = last.converged, reason if last.converged else NOT_THE_LAST + last.reason
-            standing.state = last.state
+            standing.state = last.state if last.converged else standing.state
         return Outcome(standing.state, converged, reason)
 
     def _turn(self, t, path):
@@ -177,7 +170,7 @@ class March:
         leg, reference = self._leg(standing, step, way)
         problem.storage = leg.storage
         self._beyond.resist(standing.state, leg.dT, scene.load_share(t) / scene.load_share(standing.t))
-        return leg, reference, self._solved(self._guess(standing, t, way, halvings), leg)
+        return leg, reference, self._solve.solved(self._guess(standing, t, way, halvings), leg)
 
     def _gentle(self, standing, step):
         """As much of the first step as changes no gap by more than it may, as a longer one tells. A load
@@ -208,41 +201,6 @@ class March:
         shift = Shift(*scene.cells(way, self._problem.grid.mesh))
         status, dT, X = standing.state.status, step / scene.unit, along / scene.framed.x_scale
         return self._transport.leg(carried, status, dT, shift, reference, X)
-
-    def _solved(self, state, leg):
-        """Newton's `Outcome` from a guess, to a part of the residual that it begins with, and until the
-        account of the oil closes."""
-        problem, settings = self._problem, self._settings
-        begun = problem.rms(problem.residual(problem.evaluate(state), state.status))
-        tolerance = max(settings.least, min(settings.part * begun, LOOSEST))
-        while True:
-            outcome = self._newton.run(state, tolerance=tolerance)
-            reached = outcome.cycles[-1].residual
-            if outcome.converged:
-                self._close(outcome.state)
-            at_the_end = reached <= settings.least or reached > tolerance  # which rounding alone leaves
-            if not outcome.converged or at_the_end or self._closes(outcome.state, leg):
-                return outcome
-            state, tolerance = outcome.state, max(settings.least, FINER * reached)
-
-    def _close(self, state):
-        """Bring the bodies apart, or nearer, until what a state's residual makes of oil in sum is nothing.
-
-        That takes no convolution, and moves them by some 1e-8 of the film. Smaller residuals would close
-        the account, too, for a third more work; films would differ by 5e-6 (ground surfaces in a film).
-        """
-        evaluation, inner = self._problem.evaluate(state), ~self._problem.boundary
-        stores = self._sum(self._problem.storage.by_H(evaluation.fluid), inner)
-        apart = self._sum(evaluation.inflow, inner) / stores
-        state.H0 += apart
-        state.H += apart
-
-    def _closes(self, state, leg):
-        """Whether what a state's residual makes is little beside what there is."""
-        evaluation = self._problem.evaluate(state)
-        inner = ~self._problem.boundary
-        made = self._sum(evaluation.inflow * leg.b * leg.dT, inner)
-        return abs(made) <= CLOSES * self._sum(content(evaluation.fluid), inner)
 
     def _account(self, leg, carried, evaluation):
         """The oil that is stored, and the part of it that storage and flow through the domain's ends leave

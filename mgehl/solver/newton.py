@@ -23,6 +23,7 @@ from mgehl.solver.judge import (
     judge_system,
     judge_work,
     since_lowered,
+    to_and_fro,
     way_in_vain,
 )
 from mgehl.solver.layers import FluidInLayers
@@ -36,6 +37,10 @@ from mgehl.solver.step_length import as_oil_flows, step_length
 
 ENOUGH = 0.5
 """Part of what a step in time may leave that its last linear system leaves: the rest is Newton's."""
+
+
+HALF = 0.5
+"""Of a step that would lead to and fro."""
 
 
 class Newton(PythonSnes):
@@ -178,6 +183,8 @@ class Newton(PythonSnes):
             dP = as_oil_flows(problem, self._evaluation, state, asked)
         where = problem, self._partition, self._evaluation, state
         length, H, dH = step_length(*where, dP, dH0, self._settings, self._in_turn)
+        if to_and_fro(position):
+            length, H = HALF * length, None
         if self._layers:
             self._layers.follow(state, c, dH, length, self._settings.passes_on)
         state.P -= length * dP

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from petsc4py import PETSc
 
-from mgehl.solver.judge import ROUNDED, STALLS, judge, judge_system
+from mgehl.solver.judge import BACK_AND_FORTH, ROUNDED, STALLS, judge, judge_system, to_and_fro
 from mgehl.solver.outcome import Cycle
 from mgehl.solver.partition import RESTLESS, Changes, Partition
 from mgehl.solver.position import Position
@@ -83,3 +83,12 @@ def test_a_step_in_time_need_not_wait_for_sets_that_no_residual_tells_apart(part
     assert judge(position, partition, certain).converged
     assert not judge(position, partition, LIMITS).ends
     assert not judge(make_position(0.1 * TOLERANCE, load=1.0), partition, certain).ends
+
+
+def test_steps_in_vain_that_change_no_set_go_to_and_fro(make_position):
+    """A pressure in a layer went from .04 to .63 of p_h and back, for ever; what changes sets gets on."""
+    to_and_fro_for = [1.0, *BACK_AND_FORTH * [2.0]]
+    assert to_and_fro(make_position(*to_and_fro_for))
+    assert not to_and_fro(make_position(*to_and_fro_for[:-1]))
+    assert not to_and_fro(make_position(*to_and_fro_for, changes=FILLED))
+    assert not to_and_fro(make_position(*to_and_fro_for, 0.5))
