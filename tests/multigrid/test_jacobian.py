@@ -99,9 +99,7 @@ def test_a_time_step_stores_what_flows_in(make_problem, rough_state, make_jacobi
     assert_close(r[film], ((ahead - behind) / (2.0 * STEP))[film])
 
 
-def test_oil_that_is_squeezed_out_beyond_the_domain_carries(
-    make_problem, rough_state, make_jacobian, make_vec
-):
+def test_oil_squeezed_out_beyond_the_domain_carries(make_problem, rough_state, make_jacobian, make_vec):
     """The load answers to H0 by itself: product and inverse, the coarsest grid's."""
     problem = make_problem(nodes=17, coarsest=17)
     state, (dP, dH0) = rough_state(problem, contact=False), direction(problem)

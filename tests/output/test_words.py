@@ -57,15 +57,13 @@ class TestWhereToReadOn:
     def test_of_a_film_that_is_not_resolved(self, verdict):
         assert str(make_result(resolution=Resolution(0.5, verdict))).splitlines()[-1] == f"  {UNRESOLVED}"
 
-    @pytest.mark.parametrize(
-        "patches, share, is_said", [(7, None, True), (7, 0.02, False), (0, None, False)]
-    )
-    def test_where_rough_bodies_touch_as_the_grid_has_it(self, patches, share, is_said):
+    @pytest.mark.parametrize("patches, share, said", [(7, None, True), (7, 0.02, False), (0, None, False)])
+    def test_where_rough_bodies_touch_as_the_grid_has_it(self, patches, share, said):
         """The inlet may be resolved all the same."""
         error = replace(no_band("on 257 nodes no state settled"), contact_load_share=share)
         mixed = make_mixed(patches=patches, error=error)
         result = make_result(resolution=Resolution(5.0, "resolved"), mixed=mixed)
-        assert (str(result).splitlines()[-1] == f"  {UNRESOLVED}") == is_said
+        assert (str(result).splitlines()[-1] == f"  {UNRESOLVED}") == said
 
 
 class TestOfALoadedContact:

@@ -84,9 +84,7 @@ class TestEnteringContact:
     @pytest.mark.parametrize(
         "steps, gap, enters", [(1, -1e-12, False), (2, 0.5 * THRESHOLD, False), (2, -1e-6, True)]
     )
-    def test_a_released_node_comes_back_after_a_step_if_the_bodies_overlap(
-        self, make_partition, state, steps, gap, enters
-    ):
+    def test_a_released_node_comes_back_if_bodies_overlap(self, make_partition, state, steps, gap, enters):
         partition = make_partition()
         state.P[NODE], state.status[NODE], state.H[NODE] = -0.1, CONTACT, gap
         for _ in range(steps):
@@ -199,9 +197,7 @@ class TestContinuousContact:
     [("cut_tension", "cavitated", CAVITATED), ("fill", "filled", LUBRICATED),
      ("open_contact", "released", LUBRICATED)],
 )  # fmt: skip
-def test_neighbours_with_wrong_signs_change_at_once_or_in_turn(
-    make_partition, state, rule, told, new, in_turn
-):
+def test_neighbours_change_at_once_or_in_turn(make_partition, state, rule, told, new, in_turn):
     """Three neighbours, of which in turn the middle one alone changes, which asks most; and one apart.
 
     What has to wait keeps what the step gave it.

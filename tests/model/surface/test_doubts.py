@@ -38,9 +38,7 @@ def test_a_file_s_holes_are_filled_to_its_form_where_that_is_asked(tmp_path, ben
         str(tmp_path / "z.npy"), Preparation(**told, holes="interpolate", remove=remove)
     ).heights
     np.testing.assert_allclose(flat.values, 0.0, rtol=0, atol=1e-19)
-    with pytest.raises(
-        SurfaceFileError, match='21 of 1200 points are .*; holes = "interpolate" fills them'
-    ):
+    with pytest.raises(SurfaceFileError, match='21 of 1200 points are .*; holes = "interpolate" fills'):
         _ = Measured(str(tmp_path / "z.npy"), Preparation(**told)).heights
 
 
