@@ -398,6 +398,7 @@ def test_a_steady_film_stays_where_another_run_went_on_from_it(end):
     before = solved(**({"time__end": end} if end else {}))
     after = went_on(before, **{"time.end": UNIT})
     assert after.summary.central_film_nm == pytest.approx(before.summary.central_film_nm, rel=1e-6)
+    assert end or np.diff(column(after, "convolutions")) == pytest.approx(1.0)
 
 
 def test_a_run_goes_on_from_the_end_of_another_one_whose_load_has_changed(course):
