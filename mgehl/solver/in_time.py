@@ -19,7 +19,7 @@ AHEAD = 0.1
 times in the first ones, which else would have to be solved although nothing changes."""
 
 SAME = 1e-6
-"""Part by which pressures of the state that a run starts from may be off the steady one: it then is that."""
+"""Part by which pressures of a state to start from may be off the steady one: then it is that."""
 
 
 def march(scene, task, told, start=None, pace=None):
