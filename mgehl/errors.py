@@ -45,3 +45,7 @@ class Stopped(Exception):
 
 class OutputError(UserError):
     """A file or a directory that cannot be read or written."""
+
+
+class NoRunError(OutputError):
+    """A directory that is no finished run."""

@@ -8,6 +8,7 @@ example: mgehl collect runs/try --columns 'run,motion.speed,central nm' --out ru
 from pathlib import Path
 
 from mgehl.errors import OutputError, UserError
+from mgehl.saying import complain
 
 
 def add(parser):
@@ -27,7 +28,7 @@ def execute(options):
 
     named = options.columns.split(",") if options.columns else []
     try:
-        rows = collect(options.runs, [column for column in named if column in KEYS])
+        rows = collect(options.runs, [column for column in named if column in KEYS], _left_out)
         if options.out:
             Path(options.out).parent.mkdir(parents=True, exist_ok=True)
             write_whole(options.out, csv_text(rows))
@@ -42,3 +43,8 @@ def execute(options):
         raise UserError(f"--columns {unknown[0]}: known are {', '.join(rows[0])}, and keys (mgehl keys)")
     width = terminal_columns()
     print(drawn(rows, columns, width) if width else markdown(rows, columns))
+
+
+def _left_out(error):
+    """Tell what is no run: a pattern of the shell may name anything."""
+    complain(f"left out: {error}")

@@ -16,7 +16,7 @@ import numpy as np
 
 from mgehl.config_value import AUTO
 from mgehl.discretization.status import NAMES
-from mgehl.errors import OutputError, one_line
+from mgehl.errors import NoRunError, OutputError, one_line
 from mgehl.kinds import contact_from, mesh_from
 from mgehl.model.own_function import without_running
 from mgehl.output import files
@@ -77,10 +77,10 @@ def _read(directory, found):
     path = directory / files.FIELDS
     if not is_plain(path):
         if is_begun(directory):
-            raise OutputError(f"{directory}: has not finished: go on with: mgehl run --resume {directory}")
+            raise NoRunError(f"{directory}: has not finished: go on with: mgehl run --resume {directory}")
         if is_plain(directory / files.STUDY):
-            raise OutputError(f"{directory}: is a sweep or a study, whose runs are {directory}/runs/*")
-        raise OutputError(f"{directory}: is no run directory: it has no {files.FIELDS}")
+            raise NoRunError(f"{directory}: is a sweep or a study, whose runs are {directory}/runs/*")
+        raise NoRunError(f"{directory}: is no run directory: it has no {files.FIELDS}")
     try:
         with h5py.File(path, "r") as file:
             return found(file, directory)

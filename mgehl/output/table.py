@@ -12,7 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from mgehl.config import KEYS
-from mgehl.errors import printable
+from mgehl.errors import NoRunError, printable
 from mgehl.output.digits import is_number, with_band
 from mgehl.output.quantities import BANDS, of_what, read_told, told_at
 from mgehl.output.stored import read_texts
@@ -79,11 +79,21 @@ WIDTH = 120
 """Columns of a table where the width of the terminal is not known."""
 
 
-def collect(directories, keys=()):
+def collect(directories, keys=(), left_out=None):
     """A row (dict of text) for each run directory, all of the same columns, with these `keys` of the
     configurations, "section.key", in SI units; empty where a run has none. Raises OutputError for a
-    directory that is not as its run wrote it, OSError if one cannot be read."""
-    rows = [_row(Path(directory), keys) for directory in directories]
+    directory that is not as its run wrote it, OSError if one cannot be read; `left_out` is called with the
+    error of what is no finished run, if it is given and there are others."""
+    rows, why = [], []
+    for directory in directories:
+        try:
+            rows.append(_row(Path(directory), keys))
+        except NoRunError as error:
+            why.append(error)
+    if why and not (rows and left_out):
+        raise why[0]
+    for error in why:
+        left_out(error)
     columns = dict.fromkeys(name for row in rows for name in row)
     return [{name: row.get(name, "") for name in columns} for row in rows]
 

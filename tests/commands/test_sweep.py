@@ -235,6 +235,8 @@ def test_collect_takes_keys_and_plot_draws_against_one(film, tmp_path, capsys, r
     runs = sorted(map(str, (film / "runs").iterdir()))
     assert main(["collect", *runs, "--columns", "run,motion.speed,contact.load,central nm"]) == 0
     assert "| 001 | 0.5 | 800 |" in capsys.readouterr().out
+    assert main(["collect", *runs, str(film)]) == 0  # a pattern of the shell may name anything
+    assert f"left out: {film}: is a sweep or a study" in capsys.readouterr().err
     drawn = "--against", "motion.speed", "--format", "png", "--out", str(tmp_path)
     assert main(["plot", *runs, *drawn]) == 0
     assert (tmp_path / "against-motion.speed.png").stat().st_size > 10000
