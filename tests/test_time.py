@@ -549,8 +549,7 @@ def test_frames_have_the_heights_where_they_are_and_what_cavities_hold():
     assert len(frames) > 3 and frames[-1][1]["heights"] == pytest.approx(solution.heights, abs=1e-12)
 
 
-@pytest.mark.parametrize(
-    "settings, what",
+@pytest.mark.parametrize("settings, what",
     [
         ({"motion.speed": [(0, 1), (1, 1)]}, "time.end is not given"),
         ({"motion.speed": [(0, 1), (1, 1)], "time.end": 2.0}, "must cover 0 to 2"),
@@ -561,14 +560,15 @@ def test_frames_have_the_heights_where_they_are_and_what_cavities_hold():
         ({"motion.speed": [(0, 1), (1, -1)], "time.end": 1.0, "grid.x": (-3.0, 1.1)}, "must end beyond"),
         ({"contact.load": [(0, 1), (1, 0)], "time.end": 1.0}, "must stay above 0"),
         ({"time.step": 2.0, "time.end": 1.0}, "must be at most 1"),
+        ({"time.save_every": 2.0, "time.end": 1.0}, "must be at most 1"),
+        ({"time.step": 1e-12, "time.end": 1.0}, "must be at least 1e-06"),
         ({"time.step": 2.0}, "without time.end"),
         ({"contact.load": [(0, 1), (1, 2)], "time.end": 1.0, "time.until": "settled"}, 'must be "end"'),
         ({"time.until": "settled"}, "means nothing without time.end"),
         ({"time.end": 1.0, "solver.method": "relaxation"}, "solver.method"),
         ({"time.end": 1.0, "discretization.contact_model": "unified"}, "discretization.contact_model"),
         (DENT | {"surface.body": "body_1"}, "give time.end"),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_what_is_refused(settings, what, course):
     settings = {key: course(*each) if isinstance(each, list) else each for key, each in settings.items()}
     with pytest.raises(ConfigError, match=what):

@@ -51,6 +51,9 @@ SLOWEST = 1e-12
 UNIT_OF_REST = 1e-3
 """Speed in m/s in whose units a run is solved throughout which surfaces stand still."""
 
+MOST_STEPS = 1e6
+"""Steps of a run that may be asked for."""
+
 NEEDED = {"solver.method": "newton-mg", "discretization.contact_model": "lcic"}
 """What a run in time is made for alone."""
 
@@ -201,8 +204,12 @@ def check_courses(config):
         if config.time.until == "settled":
             raise ConfigError('time.until = "settled": means nothing without time.end')
         return
-    if step is not None and step > end:
-        raise ConfigError(f"time.step = {step:g}: must be at most {end:g}, time.end")
+    for key in ("step", "save_every"):
+        asked = getattr(config.time, key)
+        if asked is not None and asked > end:
+            raise ConfigError(f"time.{key} = {asked:g}: must be at most {end:g}, time.end")
+    if step is not None and step < end / MOST_STEPS:
+        raise ConfigError(f"time.step = {step:g}: must be at least {end / MOST_STEPS:g} until time.end")
     for key, needed in NEEDED.items():
         if config.value(key) != needed:
             raise ConfigError(f'{key} = "{config.value(key)}": must be "{needed}" in time (time.end)')
